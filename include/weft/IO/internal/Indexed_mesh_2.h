@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A planar mesh as plain arrays with all its tags: what the writers write. It holds the faces in the domain, their
+// vertices, and the constrained edges in or around the domain; everything is in the order of the triangulation.
+
+#ifndef WEFT_IO_INTERNAL_INDEXED_MESH_2_H
+#define WEFT_IO_INTERNAL_INDEXED_MESH_2_H
+
+#include <weft/planar/Constraint_markers.h>
+#include <weft/planar/mark_domain.h>
+#include <weft/planar/Triangulation_2.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/Unique_hash_map.h>
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace weft {
+namespace internal {
+
+template <class Vertex, class = void>
+struct Knows_constraint : std::false_type
+{};
+template <class Vertex>
+struct Knows_constraint<Vertex, std::void_t<decltype(std::declval<const Vertex&>().constraint())>> : std::true_type
+{};
+
+struct Indexed_mesh_2
+{
+  struct Triangle
+  {
+    std::array<std::size_t, 3> vertices; ///< counterclockwise
+    int component;                       ///< from 0; components are separated by constraints
+    int marker;                          ///< of the region: 1 if the input names no regions, 0 where none is named
+  };
+  struct Edge
+  {
+    std::array<std::size_t, 2> vertices;
+    int segment; ///< input segment, -1 if unknown
+    int marker;  ///< of the input segment; its number from 1 if the input has no marks; 0 if unknown
+  };
+
+  std::vector<std::array<double, 2>> points;
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;
+  std::vector<std::size_t> fixed; ///< input vertices, where the vertex type knows them
+  int number_of_components = 0;
+  bool has_region_markers = false;
+};
+
+/// Numbers of the components that lie in the domain, counted from 0, and -1 for the others.
+template <class Cdt>
+std::vector<int> domain_components(const Cdt& cdt, const Face_components<Cdt>& components, int& count)
+{
+  std::vector<int> number(components.count, -1);
+  for (const auto face : cdt.finite_face_handles()) {
+    int& n = number[components.number[face]];
+    if (face->is_in_domain() && n == -1) n = count++;
+  }
+  return number;
+}
+
+template <class Cdt>
+void take_triangles(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags,
+                    CGAL::Unique_hash_map<typename Cdt::Vertex_handle, std::size_t>& index, Indexed_mesh_2& mesh)
+{
+  const auto components = face_components(cdt);
+  const std::vector<int> number = domain_components(cdt, components, mesh.number_of_components);
+  std::vector<int> marker(components.count, tags.regions.empty() ? 1 : 0);
+  for (const auto& region : tags.regions) marker[components.number[cdt.locate(region.point)]] = region.marker;
+  for (const auto face : cdt.finite_face_handles()) {
+    if (!face->is_in_domain()) continue;
+    const int c = components.number[face];
+    mesh.triangles.push_back(
+        {{index[face->vertex(0)], index[face->vertex(1)], index[face->vertex(2)]}, number[c], marker[c]});
+  }
+}
+
+template <class Cdt>
+void take_vertices(const Cdt& cdt, CGAL::Unique_hash_map<typename Cdt::Vertex_handle, std::size_t>& index,
+                   Indexed_mesh_2& mesh)
+{
+  CGAL::Unique_hash_map<typename Cdt::Vertex_handle, bool> used(false);
+  for (const auto face : cdt.finite_face_handles())
+    for (int i = 0; i < 3 && face->is_in_domain(); ++i) used[face->vertex(i)] = true;
+  for (const auto vertex : cdt.finite_vertex_handles()) {
+    if (!used[vertex]) continue;
+    index[vertex] = mesh.points.size();
+    if constexpr (Knows_constraint<typename Cdt::Vertex>::value)
+      if (vertex->constraint() == fixed_vertex) mesh.fixed.push_back(mesh.points.size());
+    mesh.points.push_back({CGAL::to_double(vertex->point().x()), CGAL::to_double(vertex->point().y())});
+  }
+}
+
+/// The mesh of the faces in the domain. Linear time, with a logarithm in the number of input segments for the edges.
+template <class Cdt>
+Indexed_mesh_2 indexed_mesh(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags)
+{
+  Indexed_mesh_2 mesh;
+  mesh.has_region_markers = !tags.regions.empty();
+  if (cdt.dimension() < 2) return mesh;
+  CGAL::Unique_hash_map<typename Cdt::Vertex_handle, std::size_t> index;
+  take_vertices(cdt, index, mesh);
+  take_triangles(cdt, tags, index, mesh);
+  for (const auto& [edge, segment] : tags.constraints.constrained_edges(cdt)) {
+    const auto [face, i] = edge;
+    if (!face->is_in_domain() && !face->neighbor(i)->is_in_domain()) continue;
+    mesh.edges.push_back(
+        {{index[face->vertex(cdt.ccw(i))], index[face->vertex(cdt.cw(i))]}, segment, tags.constraints.marker(segment)});
+  }
+  return mesh;
+}
+
+} // namespace internal
+} // namespace weft
+
+#endif // WEFT_IO_INTERNAL_INDEXED_MESH_2_H

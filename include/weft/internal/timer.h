@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Wall clock for budgets and stage times.
+
+#ifndef WEFT_INTERNAL_TIMER_H
+#define WEFT_INTERNAL_TIMER_H
+
+#include <chrono>
+
+namespace weft {
+namespace internal {
+
+/// Seconds since construction.
+class Timer
+{
+public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+} // namespace internal
+} // namespace weft
+
+#endif // WEFT_INTERNAL_TIMER_H

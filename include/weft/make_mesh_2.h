@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// START HERE in 2D. `make_mesh_2()` turns a constrained Delaunay triangulation into a mesh of large, well-shaped
+// triangles whose edges respect a sizing field, by interleaving refinement with relaxation (Tournois 2009, chapter 2,
+// Alg. 2). `relax_2()` improves a mesh that somebody else made without inserting anything.
+//
+//   weft::Mesh_triangulation_2<> cdt;               // insert points and constraints, or weft::insert_pslg()
+//   const auto report = weft::make_mesh_2(cdt, weft::Uniform_sizing<>(0.1));
+
+#ifndef WEFT_MAKE_MESH_2_H
+#define WEFT_MAKE_MESH_2_H
+
+#include <weft/options.h>
+#include <weft/planar/Planar_mesher_2.h>
+#include <weft/planar/Triangulation_2.h>
+#include <weft/report.h>
+#include <weft/sizing/Uniform_sizing.h>
+
+namespace weft {
+
+/// Meshes a domain: inserts Steiner points and moves them until no triangle or constrained edge is longer than the
+/// sizing field admits (longest edge over the size at the centroid, at most 1) and angles are good.
+///
+/// Vertices of `cdt` at the call are input vertices: they stay exactly where they are, and every constraint becomes a
+/// chain of constrained edges. The domain is the set of faces with `is_in_domain()`; if there is none, it is marked by
+/// nesting parity. Afterwards Steiner vertices have `constraint()` >= 0 on constraints, else `free_vertex`; vertices
+/// have running ids. On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
+///
+/// Time is about linear in the number of vertices; the result depends on nothing but the arguments, not on threads.
+/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Triangulation_2.h.
+/// \param sizing callable, point -> largest edge length in the input's units.
+/// \throws Option_error for options out of range, and when the sizing field returns anything but positive numbers.
+/// \throws Domain_error when there is no domain.
+template <class Cdt, class Sizing>
+Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
+{
+  options.check();
+  return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
+}
+
+/// Relaxes an existing mesh: vertices without constraints move to better places, those on constraints stay, nothing is
+/// inserted. Parameters and guarantees as above; the report says whether sizes hold, which relaxation can't promise.
+template <class Cdt, class Sizing>
+Mesh_report_2 relax_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
+{
+  options.check();
+  return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
+}
+
+} // namespace weft
+
+#endif // WEFT_MAKE_MESH_2_H

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Options of the meshers. The defaults are meant to be left alone; each option says its unit and what it does.
+
+#ifndef WEFT_OPTIONS_H
+#define WEFT_OPTIONS_H
+
+#include <weft/errors.h>
+#include <weft/visitor.h>
+
+#include <cstddef>
+#include <limits>
+
+namespace weft {
+
+/// Where the first vertices come from.
+enum class Seeding
+{
+  crystal, ///< a triangular lattice in the metric of the sizing field, grown through every room of the domain
+  none     ///< nothing: batch refinement alone, from the bare constraints (Tournois 2009, Alg. 2)
+};
+
+/// Options of `make_mesh_2()` and `relax_2()`.
+struct Mesh_options_2
+{
+  Seeding seeding = Seeding::crystal;
+
+  double move_ratio = 0.03;       ///< relaxation ends when no vertex moves farther, in parts of its cell's size
+  double final_move_ratio = 0.01; ///< the same for the last relaxation
+  int quadrature = 10;            ///< quadrature triangles a Voronoi cell while refining; ignored by uniform sizing
+  int final_quadrature = 100;     ///< the same for the last relaxation
+  double size_feedback = 3;       ///< exponent with which long edges draw vertices near; 0 is Lloyd's iteration proper
+  int max_sweeps = 40;            ///< most sweeps a relaxation
+  int max_batches = 400;          ///< most batches of refinement
+
+  double min_angle = 0;    ///< smallest angle in degrees to refine for, where the input allows it; 0: only sizes count
+  bool grade_input = true; ///< let elements shrink towards input details finer than the sizing field
+  bool polish = true;      ///< improve the worst triangles at the end
+
+  std::size_t max_vertices = 5000000;                          ///< vertex budget
+  double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
+  unsigned seed = 0;                                           ///< start of every random choice
+  int threads = 1; ///< threads to use where oneTBB is linked; never changes the result
+  Visitor visitor; ///< sees progress, may stop the run; may be empty
+
+  /// \throws Option_error naming the first option outside its range.
+  void check() const
+  {
+    const auto require = [](bool holds, const char* what) {
+      if (!holds) throw Option_error(what);
+    };
+    require(move_ratio > 0 && final_move_ratio > 0, "move ratios must be positive");
+    require(quadrature > 0 && final_quadrature > 0, "quadrature sizes must be positive");
+    require(size_feedback >= 0 && size_feedback <= 8, "size_feedback must lie in [0, 8]");
+    require(max_sweeps >= 0 && max_batches >= 0, "iteration limits must not be negative");
+    require(min_angle >= 0 && min_angle <= 40, "min_angle must lie in [0, 40] degrees");
+    require(time_limit >= 0, "time_limit must not be negative");
+    require(threads > 0, "threads must be positive");
+  }
+};
+
+} // namespace weft
+
+#endif // WEFT_OPTIONS_H

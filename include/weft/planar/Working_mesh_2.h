@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A constrained Delaunay triangulation while it is being meshed. It keeps what refinement and relaxation share: the
+// numbered vertices, the constraints as chains between input vertices, the domain flags of faces across insertions,
+// target sizes at vertices, and a frame of four far vertices, so that no vertex that moves lies on the convex hull
+// and no rounded Steiner point can dent it. The frame is taken away again by `finish()` or the destructor.
+//
+// The triangulation needs the bases of Triangulation_2.h. All its vertices at construction are input vertices.
+
+#ifndef WEFT_PLANAR_WORKING_MESH_2_H
+#define WEFT_PLANAR_WORKING_MESH_2_H
+
+#include <weft/errors.h>
+#include <weft/planar/mark_domain.h>
+#include <weft/planar/Triangulation_2.h>
+#include <weft/sizing/Lipschitz_sizing_2.h>
+#include <weft/sizing/Uniform_sizing.h>
+
+#include <CGAL/Bbox_2.h>
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_2.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace weft {
+
+/// \tparam Cdt constrained Delaunay triangulation with weft's bases.
+/// \tparam Sizing callable, point -> target edge length in the input's units.
+template <class Cdt, class Sizing>
+class Working_mesh_2
+{
+public:
+  using Triangulation = Cdt;
+  using Point = typename Cdt::Point;
+  using Vertex_handle = typename Cdt::Vertex_handle;
+  using Face_handle = typename Cdt::Face_handle;
+  static constexpr bool uniform = is_uniform_sizing_v<Sizing>;
+
+  /// A constraint between two input vertices. Steiner vertices on it carry its index in `constraint()`.
+  struct Chain
+  {
+    Vertex_handle source, target;
+  };
+
+  /// Where constrained vertices of the given triangulation stand.
+  enum class Given
+  {
+    input,    ///< every vertex is an input vertex: nothing given moves
+    relaxable ///< vertices without constraints are free
+  };
+
+  /// Marks the domain by nesting parity if no face is in it yet.
+  /// \throws Domain_error if there is no domain or its coordinates are out of range.
+  Working_mesh_2(Cdt& cdt, const Sizing& sizing, Given given = Given::input) : cdt_(cdt), sizing_(sizing)
+  {
+    check_coordinates();
+    const bool marked = std::any_of(cdt.finite_faces_begin(), cdt.finite_faces_end(),
+                                    [](const auto& face) { return face.is_in_domain(); });
+    if (!marked) mark_domain_by_parity(cdt);
+    input_vertices_ = cdt.number_of_vertices();
+    for (const Vertex_handle v : cdt.finite_vertex_handles()) v->set_constraint(fixed_vertex);
+    if (given == Given::relaxable) free_unconstrained_vertices();
+    for (auto e = cdt.constrained_edges_begin(); e != cdt.constrained_edges_end(); ++e) {
+      const Vertex_handle a = e->first->vertex(cdt.ccw(e->second)), b = e->first->vertex(cdt.cw(e->second));
+      chain_of_ends_[ends(a, b)] = static_cast<int>(chains_.size());
+      chains_.push_back({a, b});
+    }
+    add_frame();
+    renumber();
+  }
+
+  Working_mesh_2(const Working_mesh_2&) = delete;
+  Working_mesh_2& operator=(const Working_mesh_2&) = delete;
+  ~Working_mesh_2() { finish(); }
+
+  /// Takes the frame away. Afterwards only the triangulation itself may be used.
+  void finish()
+  {
+    for (const Vertex_handle v : frame_) cdt_.remove(v);
+    frame_.clear();
+  }
+
+  Cdt& triangulation() { return cdt_; }
+  const Cdt& triangulation() const { return cdt_; }
+  const CGAL::Bbox_2& bbox() const { return bbox_; }
+  std::size_t input_vertices() const { return input_vertices_; }
+  const std::vector<Chain>& chains() const { return chains_; }
+
+  /// Finite vertices without the frame; `vertices()[v->id()] == v`.
+  const std::vector<Vertex_handle>& vertices() const { return vertices_; }
+  /// Faces in the domain. Flips keep the list right, since they keep faces; insertions and removals don't.
+  const std::vector<Face_handle>& faces() const { return faces_; }
+
+  /// Numbers vertices and lists faces anew, in the order of the triangulation; to be called after insertions.
+  void renumber()
+  {
+    vertices_.clear();
+    faces_.clear();
+    int id = 0;
+    for (const Vertex_handle v : cdt_.finite_vertex_handles())
+      if (!is_frame(v)) {
+        v->set_id(id++);
+        vertices_.push_back(v);
+      }
+    for (const Vertex_handle v : frame_) v->set_id(id++);
+    for (const Face_handle f : cdt_.finite_face_handles())
+      if (f->is_in_domain()) faces_.push_back(f);
+    sizes_.resize(vertices_.size());
+    for (std::size_t i = 0; i < vertices_.size(); ++i) sizes_[i] = target(vertices_[i]->point());
+  }
+
+  bool is_frame(Vertex_handle v) const { return std::find(frame_.begin(), frame_.end(), v) != frame_.end(); }
+
+  /// Largest edge length that the sizing field admits at a point.
+  /// \throws Option_error if the sizing field returns anything but a positive finite number.
+  double size(const Point& p) const
+  {
+    const double s = CGAL::to_double(sizing_(p));
+    if (!(s > 0) || !std::isfinite(s)) throw_bad_size(p, s);
+    return s;
+  }
+
+  /// Edge length to aim at: the sizing field, or less near details of the input, see `set_grading()`.
+  double target(const Point& p) const
+  {
+    const double s = size(p);
+    return grading_ ? (std::min)(s, CGAL::to_double((*grading_)(p))) : s;
+  }
+
+  /// Target remembered for a vertex.
+  double target(Vertex_handle v) const { return sizes_[v->id()]; }
+
+  /// To be called after a vertex has moved.
+  void update_target(Vertex_handle v)
+  {
+    if (!is_uniform()) sizes_[v->id()] = target(v->point());
+  }
+
+  /// Whether targets are the same everywhere.
+  bool is_uniform() const { return uniform && !grading_; }
+
+  using Grading = Lipschitz_sizing_2<typename Cdt::Geom_traits>;
+  /// Makes targets smaller than the sizing field where `grading` is.
+  void set_grading(Grading grading) { grading_.emplace(std::move(grading)); }
+
+  /// Longest edge of a face over the size at its centroid.
+  double ratio(Face_handle f) const
+  {
+    double longest = 0, x = 0, y = 0;
+    for (int i = 0; i < 3; ++i) {
+      longest = (std::max)(longest, squared_length(f, i));
+      x += CGAL::to_double(f->vertex(i)->point().x());
+      y += CGAL::to_double(f->vertex(i)->point().y());
+    }
+    return std::sqrt(longest) / size(Point(x / 3, y / 3));
+  }
+
+  /// Length of edge i of a face over the size at its midpoint.
+  double edge_ratio(Face_handle f, int i) const
+  {
+    const Point &a = f->vertex(Cdt::ccw(i))->point(), &b = f->vertex(Cdt::cw(i))->point();
+    return std::sqrt(squared_length(f, i)) / size(CGAL::midpoint(a, b));
+  }
+
+  double squared_length(Face_handle f, int i) const
+  {
+    return CGAL::to_double(CGAL::squared_distance(f->vertex(Cdt::ccw(i))->point(), f->vertex(Cdt::cw(i))->point()));
+  }
+
+  /// Index of the chain that a constrained edge belongs to.
+  int chain_of(Face_handle f, int i) const
+  {
+    const Vertex_handle a = f->vertex(Cdt::ccw(i)), b = f->vertex(Cdt::cw(i));
+    if (a->constraint() >= 0) return a->constraint();
+    if (b->constraint() >= 0) return b->constraint();
+    return chain_of_ends_.at(ends(a, b));
+  }
+
+  /// Inserts a point in the interior of a constrained edge, which it splits whatever rounding did to it.
+  /// \returns null if the point coincides with an end or a face beside the edge would not keep its orientation.
+  Vertex_handle insert_on_constraint(const Point& p, Face_handle f, int i)
+  {
+    const Face_handle n = f->neighbor(i);
+    const Vertex_handle a = f->vertex(Cdt::ccw(i)), b = f->vertex(Cdt::cw(i));
+    if (!splits(p, f, i) || !splits(p, n, n->index(f))) return Vertex_handle();
+    const int chain = chain_of(f, i);
+    const bool left = f->is_in_domain(), right = n->is_in_domain();
+    const Vertex_handle v = cdt_.insert(p, Cdt::EDGE, f, i);
+    v->set_constraint(chain);
+    // New faces surround v: from b counterclockwise to a they lie where f was, from a to b where its neighbor was.
+    auto face = cdt_.incident_faces(v);
+    while (face->vertex(Cdt::ccw(face->index(v))) != b) ++face;
+    const auto start = face;
+    bool side = left;
+    do {
+      if (face->vertex(Cdt::ccw(face->index(v))) == a) side = right;
+      face->set_in_domain(side);
+    } while (++face != start);
+    return v;
+  }
+
+  /// Inserts a free vertex.
+  /// \returns null, and does nothing, if the point lies on a vertex or constraint or outside of the domain.
+  Vertex_handle insert_inside(const Point& p, Face_handle hint)
+  {
+    typename Cdt::Locate_type type;
+    int i;
+    const Face_handle f = cdt_.locate(p, type, i, hint);
+    if (type != Cdt::FACE && type != Cdt::EDGE) return Vertex_handle();
+    if (!f->is_in_domain() || (type == Cdt::EDGE && f->is_constrained(i))) return Vertex_handle();
+    const Vertex_handle v = cdt_.insert(p, type, f, i);
+    v->set_constraint(free_vertex);
+    auto face = cdt_.incident_faces(v);
+    const auto done = face;
+    do face->set_in_domain(true);
+    while (++face != done);
+    return v;
+  }
+
+  /// Removes a free vertex; the faces that fill its place belong to the domain.
+  void remove(Vertex_handle v)
+  {
+    std::vector<Vertex_handle> link;
+    auto face = cdt_.incident_faces(v);
+    const auto done = face;
+    do link.push_back(face->vertex(Cdt::ccw(face->index(v))));
+    while (++face != done);
+    cdt_.remove(v);
+    mark_filled(link);
+  }
+
+private:
+  using Ends = std::pair<Vertex_handle, Vertex_handle>;
+
+  static Ends ends(Vertex_handle a, Vertex_handle b) { return a < b ? Ends(a, b) : Ends(b, a); }
+
+  void check_coordinates()
+  {
+    if (cdt_.dimension() < 2) throw Domain_error("the domain is empty: its points don't span the plane", {}, {});
+    for (const Vertex_handle v : cdt_.finite_vertex_handles()) bbox_ += v->point().bbox();
+    const double extent = (std::max)(bbox_.xmax() - bbox_.xmin(), bbox_.ymax() - bbox_.ymin());
+    // Beyond these, fourth powers of lengths leave the range of double.
+    if (!(extent > 1e-60 && extent < 1e60))
+      throw Domain_error("coordinates out of range: the domain's extent must lie between 1e-60 and 1e60", {}, {});
+  }
+
+  void free_unconstrained_vertices()
+  {
+    for (const Vertex_handle v : cdt_.finite_vertex_handles())
+      if (!cdt_.are_there_incident_constraints(v)) v->set_constraint(free_vertex);
+  }
+
+  void add_frame()
+  {
+    const double d = 2 * (std::max)(bbox_.xmax() - bbox_.xmin(), bbox_.ymax() - bbox_.ymin());
+    const double x0 = bbox_.xmin() - d, x1 = bbox_.xmax() + d, y0 = bbox_.ymin() - d, y1 = bbox_.ymax() + d;
+    for (const Point& p : {Point(x0, y0), Point(x1, y0), Point(x1, y1), Point(x0, y1)}) {
+      frame_.push_back(cdt_.insert(p));
+      frame_.back()->set_constraint(fixed_vertex);
+    }
+    // Faces that insertion made lie outside of the old hull, so outside of the domain.
+    for (const Vertex_handle v : frame_) {
+      auto face = cdt_.incident_faces(v);
+      const auto done = face;
+      do face->set_in_domain(false);
+      while (++face != done);
+    }
+  }
+
+  /// Whether the two faces that p makes of f by splitting edge i are positively oriented.
+  bool splits(const Point& p, Face_handle f, int i) const
+  {
+    if (cdt_.is_infinite(f)) return true;
+    const Point &apex = f->vertex(i)->point(), &a = f->vertex(Cdt::ccw(i))->point(),
+                &b = f->vertex(Cdt::cw(i))->point();
+    const auto orientation = cdt_.geom_traits().orientation_2_object();
+    return orientation(apex, a, p) == CGAL::LEFT_TURN && orientation(apex, p, b) == CGAL::LEFT_TURN;
+  }
+
+  /// Puts the faces inside of the closed polygon `link` into the domain.
+  void mark_filled(const std::vector<Vertex_handle>& link)
+  {
+    std::vector<Face_handle> stack;
+    const auto push_out_of_domain = [&](Face_handle f) {
+      if (f->is_in_domain()) return;
+      f->set_in_domain(true);
+      stack.push_back(f);
+    };
+    std::map<Ends, char> border;
+    for (std::size_t k = 0; k < link.size(); ++k) {
+      const Vertex_handle a = link[k], b = link[(k + 1) % link.size()];
+      border[ends(a, b)] = 1;
+      Face_handle f;
+      int i;
+      if (!cdt_.is_edge(a, b, f, i)) continue;
+      if (f->vertex(Cdt::ccw(i)) != a) f = f->neighbor(i);
+      push_out_of_domain(f);
+    }
+    while (!stack.empty()) {
+      const Face_handle f = stack.back();
+      stack.pop_back();
+      for (int i = 0; i < 3; ++i)
+        if (!border.count(ends(f->vertex(Cdt::ccw(i)), f->vertex(Cdt::cw(i))))) push_out_of_domain(f->neighbor(i));
+    }
+  }
+
+  [[noreturn]] static void throw_bad_size(const Point& p, double s)
+  {
+    std::ostringstream what;
+    what << "the sizing field returned " << s << " at (" << p << "); sizes must be positive and finite";
+    throw Option_error(what.str());
+  }
+
+  Cdt& cdt_;
+  const Sizing& sizing_;
+  CGAL::Bbox_2 bbox_;
+  std::size_t input_vertices_ = 0;
+  std::vector<Vertex_handle> frame_;
+  std::vector<Vertex_handle> vertices_;
+  std::vector<Face_handle> faces_;
+  std::vector<double> sizes_;
+  std::optional<Grading> grading_;
+  std::vector<Chain> chains_;
+  std::map<Ends, int> chain_of_ends_; // only looked up, never iterated: addresses decide nothing
+};
+
+} // namespace weft
+
+#endif // WEFT_PLANAR_WORKING_MESH_2_H

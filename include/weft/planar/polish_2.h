@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Improves the worst triangles of a mesh by moving single vertices, in the plane or along their constraints: the
+// "hill-climbing" step that Tournois 2009, sec. 2.5, leaves to future work. The badness of a triangle grows as its
+// smallest angle falls and its largest rises, and jumps when an edge is too long for the sizing field. A move is
+// accepted only if the worst badness of all triangles that it touches, after Delaunay flips, falls; so no move undoes
+// what refinement achieved.
+
+#ifndef WEFT_PLANAR_POLISH_2_H
+#define WEFT_PLANAR_POLISH_2_H
+
+#include <weft/planar/Triangulation_2.h>
+#include <weft/relocate/Relocator_2.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace weft {
+
+/// Polishes a Working_mesh_2.
+template <class Mesh>
+class Polisher_2
+{
+public:
+  using Triangulation = typename Mesh::Triangulation;
+  using Point = typename Mesh::Point;
+  using Vertex_handle = typename Mesh::Vertex_handle;
+  using Face_handle = typename Mesh::Face_handle;
+
+  explicit Polisher_2(Mesh& mesh) : mesh_(mesh), relocator_(mesh.triangulation()) {}
+
+  /// One pass over the triangles whose badness exceeds `bound`, worst first.
+  /// \returns the number of vertices moved.
+  std::size_t pass(double bound)
+  {
+    std::vector<std::pair<double, std::size_t>> worst;
+    for (std::size_t i = 0; i < mesh_.faces().size(); ++i)
+      if (const double b = badness(mesh_.faces()[i]); b > bound) worst.emplace_back(-b, i);
+    std::sort(worst.begin(), worst.end());
+    std::size_t moved = 0;
+    for (const auto& [b, i] : worst) {
+      const Face_handle f = mesh_.faces()[i];
+      std::array<Vertex_handle, 6> around;
+      int n = 0;
+      for (int k = 0; k < 3; ++k) around[n++] = f->vertex(k);
+      for (int k = 0; k < 3; ++k)
+        if (!f->is_constrained(k)) around[n++] = f->neighbor(k)->vertex(f->neighbor(k)->index(f));
+      for (int k = 0; k < n; ++k) moved += improve(around[k]);
+    }
+    return moved;
+  }
+
+  std::size_t flips() const { return flips_; }
+
+  /// How bad a triangle is: 0 for angles within [37, 94] degrees, 1 at 32 or 102 degrees, more beyond; 10 and up with
+  /// an edge that is too long. Angles between two constraints don't count, they can't be mended.
+  double badness(Face_handle f) const
+  {
+    return badness(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0));
+  }
+
+private:
+  static constexpr double cos_small = 0.799, small_step = 0.049, cos_large = -0.07, large_step = 0.138;
+
+  struct Star_face
+  {
+    Point a, b; // counterclockwise after the vertex
+    std::array<bool, 3> given;
+  };
+
+  /// Which angles of the face, from corner i on, lie between constraints.
+  static std::array<bool, 3> given_angles(Face_handle f, int i)
+  {
+    const bool e0 = f->is_constrained(i), e1 = f->is_constrained(Triangulation::ccw(i)),
+               e2 = f->is_constrained(Triangulation::cw(i));
+    return {e1 && e2, e2 && e0, e0 && e1};
+  }
+
+  double badness(const Point& p, const Point& q, const Point& r, const std::array<bool, 3>& given) const
+  {
+    const double px = CGAL::to_double(p.x()), py = CGAL::to_double(p.y());
+    const double ax = CGAL::to_double(q.x()) - px, ay = CGAL::to_double(q.y()) - py;
+    const double bx = CGAL::to_double(r.x()) - px, by = CGAL::to_double(r.y()) - py;
+    if (!(ax * by - ay * bx > 0)) return std::numeric_limits<double>::infinity();
+    const double r2 = ax * ax + ay * ay, q2 = bx * bx + by * by,
+                 p2 = (bx - ax) * (bx - ax) + (by - ay) * (by - ay); // squared lengths opposite p, q, r
+    const double pl = std::sqrt(p2), ql = std::sqrt(q2), rl = std::sqrt(r2);
+    const std::array<double, 3> cosine{(q2 + r2 - p2) / (2 * ql * rl), (p2 + r2 - q2) / (2 * pl * rl),
+                                       (p2 + q2 - r2) / (2 * pl * ql)};
+    double result = 0;
+    for (int i = 0; i < 3; ++i)
+      if (!given[i])
+        result = (std::max)({result, (cosine[i] - cos_small) / small_step, (cos_large - cosine[i]) / large_step});
+    const double ratio = (std::max)({pl, ql, rl}) / mesh_.size(Point(px + (ax + bx) / 3, py + (ay + by) / 3));
+    return ratio > 1 ? (std::max)(result, 10 + 100 * (ratio - 1)) : result;
+  }
+
+  /// Searches a better place for the vertex within its star; flips afterwards. Returns whether it moved.
+  bool improve(Vertex_handle v)
+  {
+    const int constraint = v->constraint();
+    if (constraint == fixed_vertex || !load_star(v)) return false;
+    const Point old = v->point();
+    double worst = worst_of_star(old, std::numeric_limits<double>::infinity());
+    if (worst == 0) return false;
+    const Point best = constraint >= 0 ? search_on_constraint(v, worst) : search(v, worst);
+    if (best == old) return false;
+    if (!relocator_.move_within_star(v, best, flips_)) return false;
+    mesh_.update_target(v);
+    if (!has_worse_around(v, worst)) return true;
+    // The flips made it worse than it had been promised: go back. Flips on the way back restore the old edges, up to
+    // cocircular ones.
+    relocator_.move_within_star(v, old, flips_);
+    mesh_.update_target(v);
+    return false;
+  }
+
+  bool load_star(Vertex_handle v)
+  {
+    star_.clear();
+    auto face = mesh_.triangulation().incident_faces(v);
+    const auto done = face;
+    do {
+      const int i = face->index(v);
+      if (face->is_in_domain())
+        star_.push_back({face->vertex(Triangulation::ccw(i))->point(), face->vertex(Triangulation::cw(i))->point(),
+                         given_angles(face, i)});
+    } while (++face != done);
+    return !star_.empty();
+  }
+
+  /// Worst badness with the vertex at p; gives up where that isn't below `stop`.
+  double worst_of_star(const Point& p, double stop) const
+  {
+    double worst = 0;
+    for (const Star_face& s : star_) {
+      worst = (std::max)(worst, badness(p, s.a, s.b, s.given));
+      if (worst >= stop) break;
+    }
+    return worst;
+  }
+
+  bool has_worse_around(Vertex_handle v, double bound) const
+  {
+    auto face = mesh_.triangulation().incident_faces(v);
+    const auto done = face;
+    do
+      if (face->is_in_domain() && badness(face) > bound) return true;
+    while (++face != done);
+    return false;
+  }
+
+  /// Compass search in eight directions with halved steps; lowers `worst`.
+  Point search(Vertex_handle v, double& worst) const
+  {
+    static const double d = std::sqrt(0.5);
+    static const std::array<std::array<double, 2>, 8> directions{
+        {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}}};
+    return compass(v, directions, worst);
+  }
+
+  Point search_on_constraint(Vertex_handle v, double& worst) const
+  {
+    const auto& chain = mesh_.chains()[v->constraint()];
+    const double dx = CGAL::to_double(chain.target->point().x() - chain.source->point().x()),
+                 dy = CGAL::to_double(chain.target->point().y() - chain.source->point().y()),
+                 l = std::sqrt(dx * dx + dy * dy);
+    const std::array<std::array<double, 2>, 2> directions{{{dx / l, dy / l}, {-dx / l, -dy / l}}};
+    return compass(v, directions, worst);
+  }
+
+  template <std::size_t N>
+  Point compass(Vertex_handle v, const std::array<std::array<double, 2>, N>& directions, double& worst) const
+  {
+    constexpr int halvings = 6;
+    Point best = v->point();
+    double step = 0.1 * mesh_.target(v);
+    for (int k = 0; k < halvings;) {
+      bool better = false;
+      for (const auto& d : directions) {
+        const Point p(best.x() + step * d[0], best.y() + step * d[1]);
+        const double w = worst_of_star(p, worst);
+        if (w < worst - 1e-4) {
+          worst = w;
+          best = p;
+          better = true;
+          break;
+        }
+      }
+      if (!better) {
+        step *= 0.5;
+        ++k;
+      }
+    }
+    return best;
+  }
+
+  Mesh& mesh_;
+  Relocator_2<Triangulation> relocator_;
+  std::vector<Star_face> star_;
+  std::size_t flips_ = 0;
+};
+
+} // namespace weft
+
+#endif // WEFT_PLANAR_POLISH_2_H

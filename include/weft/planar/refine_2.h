@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Batch refinement (Tournois 2009, sec. 2.2.1). Elements whose sizing ratio exceeds a slowly decreasing target are
+// refined worst first: constrained edges at their midpoints, triangles at their circumcenters. An element that is
+// chosen takes part of its neighbors' need upon itself: their ratios are altered before they are looked at.
+//
+// Beyond the thesis: near the goal, where the target's steps would insert too many points at once, chosen elements
+// share no vertex and a batch is small; the circumcenter of a blind triangle is never used. Where all triangles of a
+// mesh are near the goal (after crystal seeding) a too long edge is the defect itself, and its midpoint is the better
+// place.
+
+#ifndef WEFT_PLANAR_REFINE_2_H
+#define WEFT_PLANAR_REFINE_2_H
+
+#include <weft/planar/Triangulation_2.h>
+
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace weft {
+
+/// Refines a Working_mesh_2 in batches.
+template <class Mesh>
+class Batch_refiner_2
+{
+public:
+  using Triangulation = typename Mesh::Triangulation;
+  using Point = typename Mesh::Point;
+  using Vertex_handle = typename Mesh::Vertex_handle;
+  using Face_handle = typename Mesh::Face_handle;
+
+  /// Below this largest ratio a batch is small and its elements are independent.
+  static constexpr double near_goal = 1.6;
+
+  /// \param min_angle smallest angle asked for, in degrees; 0 for none.
+  Batch_refiner_2(Mesh& mesh, double min_angle)
+      : mesh_(mesh), max_cosine_(min_angle > 0 ? std::cos(min_angle * std::acos(-1.0) / 180) : 2)
+  {}
+
+  /// Counts elements that violate a criterion and remembers them, worst first, for `refine()`.
+  std::size_t find_bad()
+  {
+    bad_.clear();
+    largest_ratio_ = 0;
+    const Triangulation& cdt = mesh_.triangulation();
+    for (auto e = cdt.constrained_edges_begin(); e != cdt.constrained_edges_end(); ++e) {
+      const auto [f, i] = *e;
+      if (f->is_in_domain() || f->neighbor(i)->is_in_domain()) consider(mesh_.edge_ratio(f, i), f, i);
+    }
+    for (const Face_handle f : mesh_.faces()) consider(mesh_.ratio(f), f, whole_face);
+    if (max_cosine_ < 1 && bad_.empty())
+      for (const Face_handle f : mesh_.faces())
+        if (is_too_sharp(f)) bad_.push_back({0, key(f), f, whole_face});
+    std::sort(bad_.begin(), bad_.end());
+    return bad_.size();
+  }
+
+  /// Largest sizing ratio seen by `find_bad()`.
+  double largest_ratio() const { return largest_ratio_; }
+
+  /// Inserts one batch of Steiner points for the elements that `find_bad()` found.
+  /// \param most number of points at most.
+  /// \returns the new vertices. The mesh must be renumbered afterwards.
+  std::vector<Vertex_handle> refine(std::size_t most)
+  {
+    const bool near = largest_ratio_ < near_goal;
+    choose(near ? 1 : (std::max)(largest_ratio_ / std::sqrt(3.0), 1.0), near, most);
+    std::vector<Vertex_handle> inserted;
+    for (const Choice& c : chosen_)
+      if (const Vertex_handle v = insert(c, near); v != Vertex_handle()) inserted.push_back(v);
+    return inserted;
+  }
+
+  /// Whether the smallest angle of a face, its input angles apart, is below the bound.
+  bool is_too_sharp(Face_handle f) const
+  {
+    for (int i = 0; i < 3; ++i)
+      if (!is_input_angle(f, i) && cosine(f, i) > max_cosine_) return true;
+    return false;
+  }
+
+  /// Whether both edges of the face at corner i are constrained.
+  static bool is_input_angle(Face_handle f, int i)
+  {
+    return f->is_constrained(Triangulation::ccw(i)) && f->is_constrained(Triangulation::cw(i));
+  }
+
+private:
+  static constexpr int whole_face = -1;
+  using Key = std::array<double, 6>;
+
+  struct Bad
+  {
+    double ratio;
+    Key key;
+    Face_handle face;
+    int edge;
+    bool operator<(const Bad& o) const
+    {
+      if (ratio != o.ratio) return ratio > o.ratio;
+      if (key != o.key) return key < o.key; // ties go by coordinates
+      return edge < o.edge;
+    }
+  };
+  struct Choice // by vertices, since earlier insertions destroy faces
+  {
+    std::array<Vertex_handle, 3> vertex;
+    int edge;
+  };
+
+  static Key key(Face_handle f)
+  {
+    Key k;
+    for (int i = 0; i < 3; ++i) {
+      k[2 * i] = CGAL::to_double(f->vertex(i)->point().x());
+      k[2 * i + 1] = CGAL::to_double(f->vertex(i)->point().y());
+    }
+    // Which vertex comes first is an accident of history.
+    while (std::pair(k[2], k[3]) < std::pair(k[0], k[1]) || std::pair(k[4], k[5]) < std::pair(k[0], k[1]))
+      std::rotate(k.begin(), k.begin() + 2, k.end());
+    return k;
+  }
+
+  void consider(double ratio, Face_handle f, int edge)
+  {
+    largest_ratio_ = (std::max)(largest_ratio_, ratio);
+    if (ratio > 1) bad_.push_back({ratio, key(f), f, edge});
+  }
+
+  double cosine(Face_handle f, int i) const
+  {
+    const double a = mesh_.squared_length(f, i), b = mesh_.squared_length(f, Triangulation::ccw(i)),
+                 c = mesh_.squared_length(f, Triangulation::cw(i));
+    return (b + c - a) / (2 * std::sqrt(b * c));
+  }
+
+  /// Chooses elements with altered ratios above the target.
+  void choose(double target, bool independent, std::size_t most)
+  {
+    chosen_.clear();
+    std::vector<char> used(mesh_.vertices().size(), 0);
+    for (const Face_handle f : mesh_.faces()) f->set_id(-1); // positions in `change`, for faces in need only
+    std::vector<double> change(bad_.size(), 0);
+    for (std::size_t k = 0; k < bad_.size(); ++k)
+      if (bad_[k].edge == whole_face) bad_[k].face->set_id(static_cast<int>(k));
+    for (std::size_t k = 0; k < bad_.size() && chosen_.size() < most; ++k) {
+      const Bad& b = bad_[k];
+      if (b.ratio > 0 && b.ratio + change[k] <= target) continue;
+      const std::array<Vertex_handle, 3> v{b.face->vertex(0), b.face->vertex(1), b.face->vertex(2)};
+      if (independent && (used[v[0]->id()] || used[v[1]->id()] || used[v[2]->id()])) continue;
+      for (const Vertex_handle w : v)
+        if (w->constraint() != fixed_vertex || independent) used[w->id()] = 1;
+      chosen_.push_back({v, b.edge});
+      if (b.edge != whole_face || b.ratio == 0) continue;
+      for (int i = 0; i < 3; ++i)
+        if (const int n = b.face->neighbor(i)->id(); n > static_cast<int>(k) && b.face->neighbor(i)->is_in_domain())
+          change[n] += (b.ratio / std::sqrt(3.0) - target) / 3;
+    }
+  }
+
+  Vertex_handle insert(const Choice& c, bool near)
+  {
+    Triangulation& cdt = mesh_.triangulation();
+    Face_handle f;
+    if (c.edge != whole_face) {
+      const Vertex_handle a = c.vertex[Triangulation::ccw(c.edge)], b = c.vertex[Triangulation::cw(c.edge)];
+      int i;
+      return cdt.is_edge(a, b, f, i) && f->is_constrained(i) ? split(f, i) : Vertex_handle();
+    }
+    if (!cdt.is_face(c.vertex[0], c.vertex[1], c.vertex[2], f)) return Vertex_handle();
+    int longest = 0;
+    for (int i = 1; i < 3; ++i)
+      if (mesh_.squared_length(f, i) > mesh_.squared_length(f, longest)) longest = i;
+    if (f->is_constrained(longest)) return split(f, longest);
+    if (near && mesh_.ratio(f) > 1) return mesh_.insert_inside(middle(f, longest), f);
+    return insert_circumcenter(f, longest);
+  }
+
+  Point middle(Face_handle f, int i) const
+  {
+    return CGAL::midpoint(f->vertex(Triangulation::ccw(i))->point(), f->vertex(Triangulation::cw(i))->point());
+  }
+
+  Vertex_handle split(Face_handle f, int i) { return mesh_.insert_on_constraint(middle(f, i), f, i); }
+
+  /// Inserts the circumcenter if the triangle sees it and it encroaches on no constraint near it, else splits the
+  /// constraint in the way; refining what blinds a triangle needs fewer points in the end than a point on its near
+  /// side.
+  Vertex_handle insert_circumcenter(Face_handle f, int longest)
+  {
+    const Triangulation& cdt = mesh_.triangulation();
+    const Point c = cdt.circumcenter(f);
+    Face_handle here = f;
+    // Walk towards the circumcenter; each step crosses the edge that separates it from the face.
+    for (std::size_t steps = 0; steps < most_steps; ++steps) {
+      int across = -1;
+      for (int i = 0; i < 3 && across < 0; ++i)
+        if (cdt.geom_traits().orientation_2_object()(here->vertex(Triangulation::ccw(i))->point(),
+                                                     here->vertex(Triangulation::cw(i))->point(),
+                                                     c) == CGAL::RIGHT_TURN)
+          across = i;
+      if (across < 0) break;
+      if (here->is_constrained(across)) return split(here, across);
+      here = here->neighbor(across);
+    }
+    for (int i = 0; i < 3; ++i)
+      if (here->is_constrained(i) && encroaches(c, here, i)) return split(here, i);
+    const Vertex_handle v = mesh_.insert_inside(c, here);
+    return v != Vertex_handle() ? v : mesh_.insert_inside(middle(f, longest), f);
+  }
+
+  bool encroaches(const Point& p, Face_handle f, int i) const
+  {
+    return mesh_.triangulation().geom_traits().side_of_bounded_circle_2_object()(
+               f->vertex(Triangulation::ccw(i))->point(), f->vertex(Triangulation::cw(i))->point(), p) ==
+           CGAL::ON_BOUNDED_SIDE;
+  }
+
+  static constexpr std::size_t most_steps = 10000; // of a walk, in case rounding makes it circle
+
+  Mesh& mesh_;
+  double max_cosine_;
+  double largest_ratio_ = 0;
+  std::vector<Bad> bad_;
+  std::vector<Choice> chosen_;
+};
+
+} // namespace weft
+
+#endif // WEFT_PLANAR_REFINE_2_H

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Steiner points on constraints, spaced in proportion to the sizing field: the fixed point of the one-dimensional
+// Lloyd iteration of Tournois 2009, sec. 2.2.2, reached directly by cutting the length measured in the metric of the
+// field into equal parts. Recursive bisection, as greedy refinement does it, needs up to twice as many points.
+
+#ifndef WEFT_PLANAR_SAMPLE_CONSTRAINTS_2_H
+#define WEFT_PLANAR_SAMPLE_CONSTRAINTS_2_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace weft {
+
+/// Parameters in (0, 1) of the points that cut a segment into the fewest pieces of equal metric length <= `largest`.
+/// \param size callable, point -> target edge length.
+/// \param most number of points at most; one more is returned when more would be needed.
+template <class Point, class Size>
+std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Size& size, double largest,
+                                       std::size_t most)
+{
+  const double ax = CGAL::to_double(a.x()), ay = CGAL::to_double(a.y()), dx = CGAL::to_double(b.x()) - ax,
+               dy = CGAL::to_double(b.y()) - ay, length = std::sqrt(dx * dx + dy * dy);
+  const auto size_at = [&](double t) { return size(Point(ax + t * dx, ay + t * dy)); };
+  // Metric length by the trapezium rule, in steps of an eighth of the local size.
+  std::vector<double> at(1, 0), metric(1, 0);
+  double t = 0, h = size_at(0);
+  while (t < 1 && metric.back() < largest * (static_cast<double>(most) + 2)) {
+    const double next = (std::min)(1.0, t + (std::max)(0.125 * h / length, 1e-9)), k = size_at(next);
+    metric.push_back(metric.back() + 0.5 * (next - t) * length * (1 / h + 1 / k));
+    at.push_back(next);
+    t = next;
+    h = k;
+  }
+  // The slack keeps a segment of exactly one size in one piece.
+  const auto pieces = static_cast<std::size_t>((std::max)(1.0, std::ceil(metric.back() / largest * (1 - 1e-12))));
+  std::vector<double> cuts;
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < pieces; ++i) {
+    const double wanted = metric.back() * static_cast<double>(i) / static_cast<double>(pieces);
+    while (metric[k + 1] < wanted) ++k;
+    cuts.push_back(at[k] + (at[k + 1] - at[k]) * (wanted - metric[k]) / (metric[k + 1] - metric[k]));
+  }
+  return cuts;
+}
+
+/// Inserts Steiner points on all constraints of a Working_mesh_2.
+/// \param largest longest metric length of a piece, at most 1.
+/// \param go_on callable, called for every constraint with the number of vertices; false stops.
+/// \returns whether all constraints were done.
+template <class Mesh, class Go_on>
+bool sample_constraints_2(Mesh& mesh, double largest, std::size_t max_vertices, const Go_on& go_on)
+{
+  using Triangulation = typename Mesh::Triangulation;
+  Triangulation& cdt = mesh.triangulation();
+  const auto size = [&mesh](const typename Mesh::Point& p) { return mesh.target(p); };
+  for (const auto& chain : mesh.chains()) {
+    const std::size_t n = cdt.number_of_vertices();
+    if (!go_on(n)) return false;
+    const auto a = chain.source->point(), b = chain.target->point();
+    const std::size_t room = max_vertices > n ? max_vertices - n : 0;
+    const std::vector<double> cuts = equal_metric_parts(a, b, size, largest, room);
+    if (cuts.size() > room) return false;
+    auto last = chain.source;
+    for (const double t : cuts) {
+      typename Triangulation::Face_handle f;
+      int i;
+      const typename Mesh::Point p(a.x() + t * (b.x() - a.x()), a.y() + t * (b.y() - a.y()));
+      if (!cdt.is_edge(last, chain.target, f, i)) break;
+      if (const auto v = mesh.insert_on_constraint(p, f, i); v != typename Mesh::Vertex_handle()) last = v;
+    }
+  }
+  return true;
+}
+
+} // namespace weft
+
+#endif // WEFT_PLANAR_SAMPLE_CONSTRAINTS_2_H
