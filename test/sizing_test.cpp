@@ -14,6 +14,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -130,15 +131,20 @@ Pslg random_graph(int n, unsigned seed)
   Delaunay triangulation;
   std::map<Point, std::size_t> index;
   for (int i = 0; i < n; ++i) {
-    result.points.emplace_back(unit(random), unit(random));
+    const double x = unit(random);
+    result.points.emplace_back(x, unit(random));
     index[result.points.back()] = result.points.size() - 1;
     triangulation.insert(result.points.back());
   }
-  for (auto e = triangulation.finite_edges_begin(); e != triangulation.finite_edges_end(); ++e)
-    if (unit(random) < 0.4) {
-      const Segment s = triangulation.segment(*e);
-      result.segments.push_back({index.at(s.source()), index.at(s.target())});
-    }
+  std::vector<std::array<std::size_t, 2>> edges;
+  for (auto e = triangulation.finite_edges_begin(); e != triangulation.finite_edges_end(); ++e) {
+    const Segment s = triangulation.segment(*e);
+    edges.push_back({index.at(s.source()), index.at(s.target())});
+    if (edges.back()[0] > edges.back()[1]) std::swap(edges.back()[0], edges.back()[1]);
+  }
+  std::sort(edges.begin(), edges.end()); // the triangulation's order depends on addresses
+  for (const auto& e : edges)
+    if (unit(random) < 0.4) result.segments.push_back(e);
   return result;
 }
 
@@ -263,16 +269,22 @@ TEST_CASE("the lfs field is below the infimum over the graph and within its tole
   for (const auto& [name, pslg] : nasty_graphs()) {
     INFO(name);
     const Sampled coarse = sample(pslg, 150);
+    Sampled fine; // only where the coarse samples miss the infimum
     for (const double k : {0., 0.3, 1., 2.}) {
       const Lfs field(pslg, k);
       double worst_above = 0, worst_below = 0;
       for (const Point& x : random_points(150, 7)) {
-        const double expected = brute_mu(coarse, k, x), value = field(x);
+        const double value = field(x);
+        double expected = brute_mu(coarse, k, x);
         worst_above = std::max(worst_above, value / expected - 1);
+        if (expected > 1.01 * value) {
+          if (fine.at.empty()) fine = sample(pslg, 10000);
+          expected = std::min(expected, brute_mu(fine, k, x));
+        }
         worst_below = std::max(worst_below, expected / value - 1);
       }
       CHECK(worst_above < 1e-9);
-      CHECK(worst_below < 0.01 + 0.03); // the second for the samples
+      CHECK(worst_below < 0.01 + 0.002); // the second for the samples
     }
   }
 }

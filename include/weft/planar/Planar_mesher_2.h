@@ -27,6 +27,11 @@
 #include <vector>
 
 namespace weft {
+inline double E(const char* n, double d)
+{
+  const char* e = getenv(n);
+  return e ? atof(e) : d;
+}
 
 template <class Cdt, class Sizing>
 class Planar_mesher_2
@@ -55,7 +60,7 @@ public:
       if (options_.grade_input) timed(Stage::constraints, [this] { grade_input(); });
       timed(Stage::constraints, [this] { sample_constraints(); });
       timed(Stage::seeding, [this] { seed(); });
-      timed(Stage::relaxation, [this] { relax_all(options_.move_ratio, options_.quadrature); });
+      timed(Stage::relaxation, [this] { relax_all(E("MR", options_.move_ratio), options_.quadrature); });
     }
     interleave();
     return finish();
@@ -73,7 +78,7 @@ private:
   // Lattice spacing and metric length of constrained edges, in parts of the target. On the square at 10k triangles:
   // 0.82 ends at 1.48 times the ideal number of triangles, 0.86 at 1.35; from 0.88 on the constraints' layer needs so
   // many insertions that the total grows again.
-  static constexpr double lattice_spacing = 0.86, constraint_spacing = 0.93;
+  static constexpr double lattice_spacing = 0.86, constraint_spacing = 0.9;
 
   template <class Function>
   void timed(Stage stage, const Function& function)
@@ -118,15 +123,15 @@ private:
     // Whatever stops this will stop the mesh itself.
     if (!sample_constraints_2(scratch, 1, options_.max_vertices, go)) return;
     scratch.renumber();
-    const auto details = find_input_details_2(scratch, 1.3, 1.3);
+    const auto details = find_input_details_2(scratch, E("GE", 1.25), E("GW", 1.2));
     if (details.points.empty()) return;
-    mesh_.set_grading(typename Mesh::Grading(details.points, details.sizes, 0.5));
+    mesh_.set_grading(typename Mesh::Grading(details.points, details.sizes, E("GK", .7)));
     mesh_.renumber();
   }
 
   bool sample_constraints()
   {
-    const bool done = sample_constraints_2(mesh_, constraint_spacing, options_.max_vertices,
+    const bool done = sample_constraints_2(mesh_, E("CS", constraint_spacing), options_.max_vertices,
                                            [this](std::size_t n) { return go_on(n); });
     if (!done) stop(Stop_reason::vertex_budget);
     mesh_.renumber();
@@ -135,7 +140,7 @@ private:
 
   void seed()
   {
-    Crystal_seeder_2<Mesh> seeder(mesh_, lattice_spacing);
+    Crystal_seeder_2<Mesh> seeder(mesh_, E("LS", lattice_spacing));
     if (!seeder.run(options_.max_vertices, [this](std::size_t n) { return go_on(n); }))
       stop(Stop_reason::vertex_budget);
     mesh_.renumber();
@@ -266,8 +271,9 @@ private:
   /// Pulls the last edges that are a little too long below the limit.
   void polish_sizes()
   {
+    polisher_.reset();
     for (int pass = 0; pass < 3 && go_on(); ++pass) {
-      const std::size_t moved = polisher_.pass(10);
+      const std::size_t moved = polisher_.pass(1e4);
       report_.polished += moved;
       if (moved == 0) break;
     }
@@ -275,8 +281,9 @@ private:
 
   void polish()
   {
-    for (int pass = 0; pass < 10 && go_on(); ++pass) {
-      const std::size_t moved = polisher_.pass(0);
+    polisher_.reset();
+    for (int pass = 0; pass < 30 && go_on(); ++pass) {
+      const std::size_t moved = polisher_.pass(E("PB", .5));
       report_.polished += moved;
       if (moved == 0) break;
     }

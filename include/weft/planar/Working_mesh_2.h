@@ -114,7 +114,11 @@ public:
     for (const Face_handle f : cdt_.finite_face_handles())
       if (f->is_in_domain()) faces_.push_back(f);
     sizes_.resize(vertices_.size());
-    for (std::size_t i = 0; i < vertices_.size(); ++i) sizes_[i] = target(vertices_[i]->point());
+    asked_at_.resize(vertices_.size());
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      asked_at_[i] = vertices_[i]->point();
+      sizes_[i] = target(asked_at_[i]);
+    }
   }
 
   bool is_frame(Vertex_handle v) const { return std::find(frame_.begin(), frame_.end(), v) != frame_.end(); }
@@ -138,10 +142,16 @@ public:
   /// Target remembered for a vertex.
   double target(Vertex_handle v) const { return sizes_[v->id()]; }
 
-  /// To be called after a vertex has moved.
+  /// To be called after a vertex has moved. The field is asked again only when the vertex has gone some way since the
+  /// last time: targets change slowly, and relaxation moves vertices far more often than far.
   void update_target(Vertex_handle v)
   {
-    if (!is_uniform()) sizes_[v->id()] = target(v->point());
+    if (is_uniform()) return;
+    const double d2 = CGAL::to_double(CGAL::squared_distance(v->point(), asked_at_[v->id()]));
+    double& size = sizes_[v->id()];
+    if (d2 < 0.0025 * size * size) return;
+    size = target(v->point());
+    asked_at_[v->id()] = v->point();
   }
 
   /// Whether targets are the same everywhere.
@@ -326,7 +336,8 @@ private:
   std::vector<Vertex_handle> frame_;
   std::vector<Vertex_handle> vertices_;
   std::vector<Face_handle> faces_;
-  std::vector<double> sizes_;
+  std::vector<double> sizes_;   // targets at vertices
+  std::vector<Point> asked_at_; // where they were evaluated
   std::optional<Grading> grading_;
   std::vector<Chain> chains_;
   std::map<Ends, int> chain_of_ends_; // only looked up, never iterated: addresses decide nothing

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Improves the worst triangles of a mesh by moving single vertices, in the plane or along their constraints: the
-// "hill-climbing" step that Tournois 2009, sec. 2.5, leaves to future work. The badness of a triangle grows as its
+// "hill-climbing" step that Tournois 2009, sec. 2.5, leaves to future work. The cost of a triangle grows as its
 // smallest angle falls and its largest rises, and jumps when an edge is too long for the sizing field. A move is
-// accepted only if the worst badness of all triangles that it touches, after Delaunay flips, falls; so no move undoes
+// accepted only if the worst cost of all triangles that it touches, after Delaunay flips, falls; so no move undoes
 // what refinement achieved.
 
 #ifndef WEFT_PLANAR_POLISH_2_H
@@ -34,14 +34,18 @@ public:
 
   explicit Polisher_2(Mesh& mesh) : mesh_(mesh), relocator_(mesh.triangulation()) {}
 
-  /// One pass over the triangles whose badness exceeds `bound`, worst first.
+  /// To be called when the mesh has changed otherwise than by this polisher.
+  void reset() { hopeless_.assign(mesh_.vertices().size(), 0); }
+
+  /// One pass over the triangles whose cost exceeds `bound`, worst first.
   /// \returns the number of vertices moved.
   std::size_t pass(double bound)
   {
     std::vector<std::pair<double, std::size_t>> worst;
     for (std::size_t i = 0; i < mesh_.faces().size(); ++i)
-      if (const double b = badness(mesh_.faces()[i]); b > bound) worst.emplace_back(-b, i);
+      if (const double b = cost(mesh_.faces()[i]); b > bound) worst.emplace_back(-b, i);
     std::sort(worst.begin(), worst.end());
+    hopeless_.resize(mesh_.vertices().size(), 0);
     std::size_t moved = 0;
     for (const auto& [b, i] : worst) {
       const Face_handle f = mesh_.faces()[i];
@@ -59,13 +63,66 @@ public:
 
   /// How bad a triangle is: 0 for angles within [37, 94] degrees, 1 at 32 or 102 degrees, more beyond; 10 and up with
   /// an edge that is too long. Angles between two constraints don't count, they can't be mended.
-  double badness(Face_handle f) const
+  double cost(Face_handle f) const
   {
-    return badness(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0));
+    return cost(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0));
   }
 
+  /// Tries to move one vertex to a better place; flips afterwards. Returns whether it moved.
+  bool improve(Vertex_handle v)
+  {
+    hopeless_.resize(mesh_.vertices().size(), 0);
+    const int constraint = v->constraint();
+    if (constraint == fixed_vertex || hopeless_[v->id()] || !load_star(v)) return false;
+    hopeless_[v->id()] = 1;
+    const Point old = v->point();
+    double cost = cost_of_star(old, std::numeric_limits<double>::infinity());
+    const double before = cost;
+    if (cost < negligible) return false;
+    const Point best = constraint >= 0 ? search_on_constraint(v, cost) : search(v, cost);
+    if (best == old || !relocator_.move_within_star(v, best, flips_)) return false;
+    mesh_.update_target(v);
+    if (cost_around(v) <= before) {
+      give_hope_around(v);
+      return true;
+    }
+    // The flips made it worse than had been promised: go back. Flips on the way back restore the old edges, up to
+    // cocircular ones.
+    relocator_.move_within_star(v, old, flips_);
+    mesh_.update_target(v);
+    return false;
+  }
+
+  /// Sum of the costs of the triangles around a vertex.
+  double cost_around(Vertex_handle v) const
+  {
+    double sum = 0;
+    auto face = mesh_.triangulation().incident_faces(v);
+    const auto done = face;
+    do
+      if (face->is_in_domain()) sum += cost(face);
+    while (++face != done);
+    return sum;
+  }
+
+  /// Vertices near one that moved are worth another try.
+  void give_hope_around(Vertex_handle v)
+  {
+    hopeless_.resize(mesh_.vertices().size(), 0);
+    hopeless_[v->id()] = 0;
+    auto neighbor = mesh_.triangulation().incident_vertices(v);
+    const auto done = neighbor;
+    do
+      if (!mesh_.is_frame(neighbor)) hopeless_[neighbor->id()] = 0;
+    while (++neighbor != done);
+  }
+
+  Relocator_2<Triangulation>& relocator() { return relocator_; }
+
 private:
-  static constexpr double cos_small = 0.799, small_step = 0.049, cos_large = -0.07, large_step = 0.138;
+  static constexpr double cos_small = 0.643, small_step = 0.156, cos_large = 0.174, large_step = 0.244;
+
+  static constexpr double oversize_cost = 1e4, negligible = 0.01;
 
   struct Star_face
   {
@@ -81,7 +138,7 @@ private:
     return {e1 && e2, e2 && e0, e0 && e1};
   }
 
-  double badness(const Point& p, const Point& q, const Point& r, const std::array<bool, 3>& given) const
+  double cost(const Point& p, const Point& q, const Point& r, const std::array<bool, 3>& given) const
   {
     const double px = CGAL::to_double(p.x()), py = CGAL::to_double(p.y());
     const double ax = CGAL::to_double(q.x()) - px, ay = CGAL::to_double(q.y()) - py;
@@ -97,27 +154,8 @@ private:
       if (!given[i])
         result = (std::max)({result, (cosine[i] - cos_small) / small_step, (cos_large - cosine[i]) / large_step});
     const double ratio = (std::max)({pl, ql, rl}) / mesh_.size(Point(px + (ax + bx) / 3, py + (ay + by) / 3));
-    return ratio > 1 ? (std::max)(result, 10 + 100 * (ratio - 1)) : result;
-  }
-
-  /// Searches a better place for the vertex within its star; flips afterwards. Returns whether it moved.
-  bool improve(Vertex_handle v)
-  {
-    const int constraint = v->constraint();
-    if (constraint == fixed_vertex || !load_star(v)) return false;
-    const Point old = v->point();
-    double worst = worst_of_star(old, std::numeric_limits<double>::infinity());
-    if (worst == 0) return false;
-    const Point best = constraint >= 0 ? search_on_constraint(v, worst) : search(v, worst);
-    if (best == old) return false;
-    if (!relocator_.move_within_star(v, best, flips_)) return false;
-    mesh_.update_target(v);
-    if (!has_worse_around(v, worst)) return true;
-    // The flips made it worse than it had been promised: go back. Flips on the way back restore the old edges, up to
-    // cocircular ones.
-    relocator_.move_within_star(v, old, flips_);
-    mesh_.update_target(v);
-    return false;
+    const double r2_ = result * result, r4 = r2_ * r2_, cost = r4 * r4;
+    return ratio > 1 ? cost + oversize_cost * (1 + 100 * (ratio - 1)) : cost;
   }
 
   bool load_star(Vertex_handle v)
@@ -134,59 +172,49 @@ private:
     return !star_.empty();
   }
 
-  /// Worst badness with the vertex at p; gives up where that isn't below `stop`.
-  double worst_of_star(const Point& p, double stop) const
+  /// Worst cost with the vertex at p; gives up where that isn't below `stop`.
+  double cost_of_star(const Point& p, double stop) const
   {
-    double worst = 0;
+    double sum = 0;
     for (const Star_face& s : star_) {
-      worst = (std::max)(worst, badness(p, s.a, s.b, s.given));
-      if (worst >= stop) break;
+      sum += cost(p, s.a, s.b, s.given);
+      if (sum >= stop) break;
     }
-    return worst;
+    return sum;
   }
 
-  bool has_worse_around(Vertex_handle v, double bound) const
-  {
-    auto face = mesh_.triangulation().incident_faces(v);
-    const auto done = face;
-    do
-      if (face->is_in_domain() && badness(face) > bound) return true;
-    while (++face != done);
-    return false;
-  }
-
-  /// Compass search in eight directions with halved steps; lowers `worst`.
-  Point search(Vertex_handle v, double& worst) const
+  /// Compass search in eight directions with halved steps; lowers `lowest`.
+  Point search(Vertex_handle v, double& lowest) const
   {
     static const double d = std::sqrt(0.5);
     static const std::array<std::array<double, 2>, 8> directions{
         {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}}};
-    return compass(v, directions, worst);
+    return compass(v, directions, lowest);
   }
 
-  Point search_on_constraint(Vertex_handle v, double& worst) const
+  Point search_on_constraint(Vertex_handle v, double& lowest) const
   {
     const auto& chain = mesh_.chains()[v->constraint()];
     const double dx = CGAL::to_double(chain.target->point().x() - chain.source->point().x()),
                  dy = CGAL::to_double(chain.target->point().y() - chain.source->point().y()),
                  l = std::sqrt(dx * dx + dy * dy);
     const std::array<std::array<double, 2>, 2> directions{{{dx / l, dy / l}, {-dx / l, -dy / l}}};
-    return compass(v, directions, worst);
+    return compass(v, directions, lowest);
   }
 
   template <std::size_t N>
-  Point compass(Vertex_handle v, const std::array<std::array<double, 2>, N>& directions, double& worst) const
+  Point compass(Vertex_handle v, const std::array<std::array<double, 2>, N>& directions, double& lowest) const
   {
-    constexpr int halvings = 6;
+    constexpr int halvings = 4;
     Point best = v->point();
     double step = 0.1 * mesh_.target(v);
     for (int k = 0; k < halvings;) {
       bool better = false;
       for (const auto& d : directions) {
         const Point p(best.x() + step * d[0], best.y() + step * d[1]);
-        const double w = worst_of_star(p, worst);
-        if (w < worst - 1e-4) {
-          worst = w;
+        const double c = cost_of_star(p, lowest);
+        if (c < 0.999 * lowest) {
+          lowest = c;
           best = p;
           better = true;
           break;
@@ -203,6 +231,7 @@ private:
   Mesh& mesh_;
   Relocator_2<Triangulation> relocator_;
   std::vector<Star_face> star_;
+  std::vector<char> hopeless_; // by vertex id: tried in vain, and nothing near it has changed since
   std::size_t flips_ = 0;
 };
 

@@ -14,11 +14,12 @@
 
 namespace weft {
 
-/// Parameters in (0, 1) of the points that cut a segment into the fewest pieces of equal metric length <= `largest`.
+/// Parameters in (0, 1) of the points that cut a segment into pieces of equal metric length, at most 1 and as near to
+/// `wanted` as can be.
 /// \param size callable, point -> target edge length.
 /// \param most number of points at most; one more is returned when more would be needed.
 template <class Point, class Size>
-std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Size& size, double largest,
+std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Size& size, double wanted,
                                        std::size_t most)
 {
   const double ax = CGAL::to_double(a.x()), ay = CGAL::to_double(a.y()), dx = CGAL::to_double(b.x()) - ax,
@@ -27,7 +28,7 @@ std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Siz
   // Metric length by the trapezium rule, in steps of an eighth of the local size.
   std::vector<double> at(1, 0), metric(1, 0);
   double t = 0, h = size_at(0);
-  while (t < 1 && metric.back() < largest * (static_cast<double>(most) + 2)) {
+  while (t < 1 && metric.back() < static_cast<double>(most) + 2) {
     const double next = (std::min)(1.0, t + (std::max)(0.125 * h / length, 1e-9)), k = size_at(next);
     metric.push_back(metric.back() + 0.5 * (next - t) * length * (1 / h + 1 / k));
     at.push_back(next);
@@ -35,23 +36,25 @@ std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Siz
     h = k;
   }
   // The slack keeps a segment of exactly one size in one piece.
-  const auto pieces = static_cast<std::size_t>((std::max)(1.0, std::ceil(metric.back() / largest * (1 - 1e-12))));
+  double n = (std::max)(1.0, std::ceil(metric.back() * (1 - 1e-12)));
+  while (wanted * (n + 1) / metric.back() < metric.back() / (n * wanted)) ++n; // nearer as a ratio
+  const auto pieces = static_cast<std::size_t>(n);
   std::vector<double> cuts;
   std::size_t k = 0;
   for (std::size_t i = 1; i < pieces; ++i) {
-    const double wanted = metric.back() * static_cast<double>(i) / static_cast<double>(pieces);
-    while (metric[k + 1] < wanted) ++k;
-    cuts.push_back(at[k] + (at[k + 1] - at[k]) * (wanted - metric[k]) / (metric[k + 1] - metric[k]));
+    const double length_to = metric.back() * static_cast<double>(i) / static_cast<double>(pieces);
+    while (metric[k + 1] < length_to) ++k;
+    cuts.push_back(at[k] + (at[k + 1] - at[k]) * (length_to - metric[k]) / (metric[k + 1] - metric[k]));
   }
   return cuts;
 }
 
 /// Inserts Steiner points on all constraints of a Working_mesh_2.
-/// \param largest longest metric length of a piece, at most 1.
+/// \param wanted metric length of a piece to aim at; none is longer than 1.
 /// \param go_on callable, called for every constraint with the number of vertices; false stops.
 /// \returns whether all constraints were done.
 template <class Mesh, class Go_on>
-bool sample_constraints_2(Mesh& mesh, double largest, std::size_t max_vertices, const Go_on& go_on)
+bool sample_constraints_2(Mesh& mesh, double wanted, std::size_t max_vertices, const Go_on& go_on)
 {
   using Triangulation = typename Mesh::Triangulation;
   Triangulation& cdt = mesh.triangulation();
@@ -61,7 +64,7 @@ bool sample_constraints_2(Mesh& mesh, double largest, std::size_t max_vertices, 
     if (!go_on(n)) return false;
     const auto a = chain.source->point(), b = chain.target->point();
     const std::size_t room = max_vertices > n ? max_vertices - n : 0;
-    const std::vector<double> cuts = equal_metric_parts(a, b, size, largest, room);
+    const std::vector<double> cuts = equal_metric_parts(a, b, size, wanted, room);
     if (cuts.size() > room) return false;
     auto last = chain.source;
     for (const double t : cuts) {

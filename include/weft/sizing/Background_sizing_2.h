@@ -64,9 +64,12 @@ public:
 
   /// Lowers sizes until the length of the gradient is at most k on each triangle (up to rounding where one is nearly
   /// flat), so that the field is k-Lipschitz.
-  /// No size falls below the smallest one. About O(n log n): 0.5 s for 100,000 random points and sizes. Around one
-  /// small size the field is the cone of slope k at the vertices less 0 to 10 % on regular grids, 0 to 25 % (on average
-  /// 4 %) on grids with random offsets, where flat faces cost. \param k growth of the size per unit of distance, >= 0.
+  /// No size falls below the smallest one. About O(n log n): 0.5 s for 100,000 random points and sizes.
+  ///
+  /// Around one small size the field is at vertices the cone of slope k less 0 to 10 % on regular grids, less 0 to 26 %
+  /// (on average 3 to 5 %) on grids with random offsets, where flat faces cost.
+  ///
+  /// \param k growth of the size per unit of distance, >= 0.
   /// \throws Option_error when k is NaN, infinite or negative.
   void limit_gradient(double k);
 

