@@ -278,7 +278,7 @@ TEST_CASE("the lfs field is below the infimum over the graph and within its tole
         double expected = brute_mu(coarse, k, x);
         worst_above = std::max(worst_above, value / expected - 1);
         if (expected > 1.01 * value) {
-          if (fine.at.empty()) fine = sample(pslg, 10000);
+          if (fine.at.empty()) fine = sample(pslg, 4000);
           expected = std::min(expected, brute_mu(fine, k, x));
         }
         worst_below = std::max(worst_below, expected / value - 1);

@@ -11,6 +11,7 @@
 #include <weft/options.h>
 #include <weft/planar/input_grading_2.h>
 #include <weft/planar/lloyd_2.h>
+#include <weft/planar/pliant_2.h>
 #include <weft/planar/polish_2.h>
 #include <weft/planar/refine_2.h>
 #include <weft/planar/sample_constraints_2.h>
@@ -49,7 +50,8 @@ public:
         options_(options),
         relocator_(cdt),
         refiner_(mesh_, options.min_angle),
-        polisher_(mesh_)
+        polisher_(mesh_),
+        pliant_(mesh_, polisher_)
   {
     report_.input_vertices = mesh_.input_vertices();
   }
@@ -249,7 +251,11 @@ private:
       }
       timed(Stage::refinement, [this] { refine(); });
     }
-    if (options_.polish) timed(Stage::polishing, [this] { polish(); });
+    if (options_.polish)
+      timed(Stage::polishing, [this] {
+        polish();
+        if (E("PL", 1) && pliant_.pass(E("PLB", 3), [this] { return go_on(); }) > 0) polish();
+      });
     bad_ = refiner_.find_bad();
   }
 
@@ -302,6 +308,7 @@ private:
   Relocator_2<Cdt> relocator_;
   Batch_refiner_2<Mesh> refiner_;
   Polisher_2<Mesh> polisher_;
+  Pliant_improver_2<Mesh> pliant_;
   Mesh_report_2 report_;
   Stage stage_ = Stage::constraints;
   std::size_t bad_ = 0;

@@ -121,6 +121,22 @@ public:
     }
   }
 
+  /// Numbers a vertex that was inserted since the last `renumber()`, at a place of its own or that of a removed one.
+  void adopt(Vertex_handle v, int id)
+  {
+    const auto n = static_cast<std::size_t>(id);
+    if (n == vertices_.size()) {
+      for (const Vertex_handle f : frame_) f->set_id(f->id() + 1);
+      vertices_.emplace_back();
+      sizes_.emplace_back();
+      asked_at_.emplace_back();
+    }
+    v->set_id(id);
+    vertices_[n] = v;
+    asked_at_[n] = v->point();
+    sizes_[n] = target(v->point());
+  }
+
   bool is_frame(Vertex_handle v) const { return std::find(frame_.begin(), frame_.end(), v) != frame_.end(); }
 
   /// Largest edge length that the sizing field admits at a point.
@@ -235,9 +251,10 @@ public:
     return v;
   }
 
-  /// Removes a free vertex; the faces that fill its place belong to the domain.
+  /// Removes a free vertex; the faces that fill its place belong to the domain. `faces()` is out of date afterwards.
   void remove(Vertex_handle v)
   {
+    vertices_[v->id()] = Vertex_handle();
     std::vector<Vertex_handle> link;
     auto face = cdt_.incident_faces(v);
     const auto done = face;

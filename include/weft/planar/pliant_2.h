@@ -11,6 +11,8 @@
 #include <weft/planar/polish_2.h>
 #include <weft/planar/Triangulation_2.h>
 
+#include <CGAL/Kernel/global_functions.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -37,19 +39,16 @@ public:
   template <class Go_on>
   std::size_t pass(double bound, const Go_on& go_on)
   {
-    std::vector<std::pair<double, std::array<Vertex_handle, 3>>> worst;
+    std::vector<std::pair<double, Triangle>> worst;
     for (const Face_handle f : mesh_.faces())
       if (const double c = polisher_.cost(f); c > bound)
-        worst.push_back({c, {f->vertex(0), f->vertex(1), f->vertex(2)}});
+        worst.push_back({c, {f->vertex(0)->id(), f->vertex(1)->id(), f->vertex(2)->id()}});
     std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::size_t kept = 0;
-    removed_.assign(mesh_.vertices().size(), 0);
-    for (const auto& [c, v] : worst) {
+    for (const auto& [c, t] : worst) {
       if (!go_on()) break;
       Face_handle f;
-      if (is_removed(v[0]) || is_removed(v[1]) || is_removed(v[2])) continue;
-      if (!mesh_.triangulation().is_face(v[0], v[1], v[2], f) || polisher_.cost(f) <= bound) continue;
-      kept += mend(v);
+      if (find(t, f) && polisher_.cost(f) > bound && mend(t)) ++kept;
     }
     mesh_.renumber();
     polisher_.reset();
@@ -60,11 +59,144 @@ private:
   // What a kept change must leave of the neighborhood's cost.
   static constexpr double worth_inserting = 0.5, worth_removing = 0.8;
 
-  bool mend(const std::array<Vertex_handle, 3>& v) { return false; }
+  using Triangle = std::array<int, 3>; // by vertex ids, since trials replace vertices and faces
+
+  /// What a change may affect: the vertices of a triangle and their neighbors, with the places they had.
+  struct Region
+  {
+    std::vector<Vertex_handle> vertices;
+    std::vector<Point> points;
+    double cost = 0;
+  };
+
+  /// The face of a triangle, if it still is one.
+  bool find(const Triangle& t, Face_handle& f) const
+  {
+    std::array<Vertex_handle, 3> v;
+    for (int i = 0; i < 3; ++i) {
+      v[i] = mesh_.vertices()[t[i]];
+      if (v[i] == Vertex_handle()) return false;
+    }
+    return mesh_.triangulation().is_face(v[0], v[1], v[2], f);
+  }
+
+  /// Tries the changes at a triangle, those that save a vertex first. Returns whether one was kept.
+  bool mend(const Triangle& t)
+  {
+    Face_handle f;
+    for (int i = 0; i < 3; ++i)
+      if (find(t, f) && mesh_.vertices()[t[i]]->constraint() == free_vertex && try_removal(f, t[i])) return true;
+    for (int k = 0; k < 4; ++k)
+      if (find(t, f) && try_insertion(f, k)) return true;
+    return false;
+  }
+
+  /// Where the k-th trial inserts: in the middle of the edges, longest first, then in the middle of the face.
+  bool place(Face_handle f, int k, Point& p) const
+  {
+    p = CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point());
+    if (k == 3) return true;
+    Triangle edges{0, 1, 2};
+    std::sort(edges.begin(), edges.end(),
+              [&](int i, int j) { return mesh_.squared_length(f, i) > mesh_.squared_length(f, j); });
+    const int i = edges[k];
+    p = CGAL::midpoint(f->vertex(Triangulation::ccw(i))->point(), f->vertex(Triangulation::cw(i))->point());
+    return !f->is_constrained(i);
+  }
+
+  bool try_insertion(Face_handle f, int k)
+  {
+    Point p;
+    if (!place(f, k, p)) return false;
+    Region region = region_around(f);
+    const Vertex_handle v = mesh_.insert_inside(p, f);
+    if (v == Vertex_handle()) return false;
+    mesh_.adopt(v, static_cast<int>(mesh_.vertices().size()));
+    region.vertices.push_back(v);
+    if (settle(region.vertices) < worth_inserting * region.cost) return true;
+    region.vertices.pop_back();
+    mesh_.remove(v);
+    put_back(region);
+    return false;
+  }
+
+  bool try_removal(Face_handle f, int id)
+  {
+    Region region = region_around(f);
+    const Vertex_handle v = mesh_.vertices()[id];
+    const auto at = std::find(region.vertices.begin(), region.vertices.end(), v) - region.vertices.begin();
+    region.vertices.erase(region.vertices.begin() + at);
+    region.points.erase(region.points.begin() + at);
+    const Point p = v->point();
+    mesh_.remove(v);
+    if (settle(region.vertices) < worth_removing * region.cost) return true;
+    put_back(region);
+    const Vertex_handle again = mesh_.insert_inside(p, region.vertices.front()->face());
+    if (again == Vertex_handle()) return true;
+    mesh_.adopt(again, id);
+    return false;
+  }
+
+  Region region_around(Face_handle f)
+  {
+    Region region;
+    const auto append = [&](Vertex_handle v) {
+      if (!mesh_.is_frame(v) && std::find(region.vertices.begin(), region.vertices.end(), v) == region.vertices.end())
+        region.vertices.push_back(v);
+    };
+    for (int i = 0; i < 3; ++i) {
+      append(f->vertex(i));
+      auto neighbor = mesh_.triangulation().incident_vertices(f->vertex(i));
+      const auto done = neighbor;
+      do append(neighbor);
+      while (++neighbor != done);
+    }
+    for (const Vertex_handle v : region.vertices) region.points.push_back(v->point());
+    region.cost = cost(region.vertices);
+    return region;
+  }
+
+  /// Polishes the vertices and returns the cost of the triangles around them.
+  double settle(const std::vector<Vertex_handle>& vertices)
+  {
+    constexpr int most_rounds = 6;
+    for (const Vertex_handle v : vertices) polisher_.give_hope(v);
+    for (int round = 0; round < most_rounds; ++round) {
+      bool moved = false;
+      for (const Vertex_handle v : vertices) moved |= polisher_.improve(v);
+      if (!moved) break;
+    }
+    return cost(vertices);
+  }
+
+  double cost(const std::vector<Vertex_handle>& vertices) const
+  {
+    const auto for_faces = [&](const auto& function) {
+      for (const Vertex_handle v : vertices) {
+        auto face = mesh_.triangulation().incident_faces(v);
+        const auto done = face;
+        do function(Face_handle(face));
+        while (++face != done);
+      }
+    };
+    double sum = 0;
+    for_faces([](Face_handle f) { f->set_id(0); });
+    for_faces([&](Face_handle f) {
+      if (f->id() == 0 && f->is_in_domain()) sum += polisher_.cost(f);
+      f->set_id(1); // counted
+    });
+    return sum;
+  }
+
+  /// Puts a region back as it was. Where rounding or flips forbid that, the mesh stays valid all the same.
+  void put_back(const Region& region)
+  {
+    polisher_.relocator().move(region.vertices, region.points);
+    for (const Vertex_handle v : region.vertices) mesh_.update_target(v);
+  }
 
   Mesh& mesh_;
   Polisher_2<Mesh>& polisher_;
-  std::vector<char> removed_;
 };
 
 } // namespace weft

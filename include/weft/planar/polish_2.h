@@ -105,11 +105,17 @@ public:
     return sum;
   }
 
-  /// Vertices near one that moved are worth another try.
-  void give_hope_around(Vertex_handle v)
+  /// Makes a vertex worth another try.
+  void give_hope(Vertex_handle v)
   {
     hopeless_.resize(mesh_.vertices().size(), 0);
     hopeless_[v->id()] = 0;
+  }
+
+  /// Vertices near one that moved are worth another try.
+  void give_hope_around(Vertex_handle v)
+  {
+    give_hope(v);
     auto neighbor = mesh_.triangulation().incident_vertices(v);
     const auto done = neighbor;
     do

@@ -163,14 +163,20 @@ public:
       validity_.add(Fault_kind::structure, "the triangulation isn't two-dimensional");
       return validity_;
     }
-    for (const Vertex_handle v : cdt_.all_vertex_handles()) faces_at_[v] = 0;
-    for (const Face_handle f : cdt_.all_face_handles()) is_face_[f] = true;
+    for (const Vertex_handle v : cdt_.all_vertex_handles()) {
+      faces_at_[v] = 0;
+      ++number_of_vertices_;
+    }
+    for (const Face_handle f : cdt_.all_face_handles()) {
+      is_face_[f] = true;
+      ++number_of_faces_;
+    }
     for (const Face_handle f : cdt_.all_face_handles()) check_vertices(f);
     if (!validity_.ok()) return validity_;
     for (const Face_handle f : cdt_.all_face_handles()) check_neighbors(f);
     if (!validity_.ok()) return validity_;
     for (const Vertex_handle v : cdt_.all_vertex_handles()) check_star(v);
-    check_sphere();
+    if (validity_.ok()) check_sphere();
     return validity_;
   }
 
@@ -229,10 +235,8 @@ private:
   /// Connected, without boundary and with Euler's number 2.
   void check_sphere()
   {
-    std::size_t vertices = 0, faces = 0, reached = 0;
-    for (const Vertex_handle v : cdt_.all_vertex_handles()) vertices += v != Vertex_handle();
-    for (const Face_handle f : cdt_.all_face_handles()) faces += f != Face_handle();
-    if (faces + 4 != 2 * vertices)
+    std::size_t reached = 0;
+    if (number_of_faces_ + 4 != 2 * number_of_vertices_)
       validity_.add(Fault_kind::structure, "the numbers of vertices and faces aren't those of a planar triangulation");
     std::vector<Face_handle> stack(1, cdt_.infinite_face());
     is_face_[stack[0]] = false; // from here on: not reached yet
@@ -246,11 +250,13 @@ private:
         stack.push_back(f->neighbor(i));
       }
     }
-    if (reached != faces) validity_.add(Fault_kind::structure, "the triangulation falls into several pieces");
+    if (reached != number_of_faces_)
+      validity_.add(Fault_kind::structure, "the triangulation falls into several pieces");
   }
 
   const Cdt& cdt_;
   Validity_2 validity_;
+  std::size_t number_of_vertices_ = 0, number_of_faces_ = 0; // with the one at infinity and those around it
   CGAL::Unique_hash_map<Vertex_handle, int> faces_at_{0};
   CGAL::Unique_hash_map<Face_handle, bool> is_face_{false};
 };
