@@ -48,7 +48,6 @@ public:
       : mesh_(cdt, sizing, keep_vertices ? Mesh::Given::relaxable : Mesh::Given::input),
         sizing_(sizing),
         options_(options),
-        relocator_(cdt),
         refiner_(mesh_, options.min_angle),
         polisher_(mesh_),
         pliant_(mesh_, polisher_)
@@ -125,9 +124,9 @@ private:
     // Whatever stops this will stop the mesh itself.
     if (!sample_constraints_2(scratch, 1, options_.max_vertices, go)) return;
     scratch.renumber();
-    const auto details = find_input_details_2(scratch, E("GE", 1.25), E("GW", 1.2));
+    const auto details = find_input_details_2(scratch, E("GE", 1.2), E("GW", 1.2));
     if (details.points.empty()) return;
-    mesh_.set_grading(typename Mesh::Grading(details.points, details.sizes, E("GK", .7)));
+    mesh_.set_grading(typename Mesh::Grading(details.points, details.sizes, E("GK", .8)));
     mesh_.renumber();
   }
 
@@ -175,7 +174,7 @@ private:
         moving.push_back(v);
         targets.push_back(t.point);
       }
-      count(relocator_.move(moving, targets));
+      count(mesh_.relocator().move(moving, targets));
       for (const Vertex_handle v : moving) mesh_.update_target(v);
       ++report_.sweeps;
       if (largest < move_ratio) break;
@@ -254,7 +253,10 @@ private:
     if (options_.polish)
       timed(Stage::polishing, [this] {
         polish();
-        if (E("PL", 1) && pliant_.pass(E("PLB", 3), [this] { return go_on(); }) > 0) polish();
+        for (int k = 0; k < E("PL", 3); ++k) {
+          if (pliant_.pass(E("PLB", 1), [this] { return go_on(); }) == 0) break;
+          polish();
+        }
       });
     bad_ = refiner_.find_bad();
   }
@@ -279,7 +281,7 @@ private:
   {
     polisher_.reset();
     for (int pass = 0; pass < 3 && go_on(); ++pass) {
-      const std::size_t moved = polisher_.pass(1e4);
+      const std::size_t moved = polisher_.pass(Polisher_2<Mesh>::oversize_cost);
       report_.polished += moved;
       if (moved == 0) break;
     }
@@ -305,7 +307,6 @@ private:
   const Sizing& sizing_;
   const Mesh_options_2& options_;
   internal::Timer timer_;
-  Relocator_2<Cdt> relocator_;
   Batch_refiner_2<Mesh> refiner_;
   Polisher_2<Mesh> polisher_;
   Pliant_improver_2<Mesh> pliant_;

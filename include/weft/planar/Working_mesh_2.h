@@ -13,6 +13,7 @@
 #include <weft/errors.h>
 #include <weft/planar/mark_domain.h>
 #include <weft/planar/Triangulation_2.h>
+#include <weft/relocate/Relocator_2.h>
 #include <weft/sizing/Lipschitz_sizing_2.h>
 #include <weft/sizing/Uniform_sizing.h>
 
@@ -59,7 +60,8 @@ public:
 
   /// Marks the domain by nesting parity if no face is in it yet.
   /// \throws Domain_error if there is no domain or its coordinates are out of range.
-  Working_mesh_2(Cdt& cdt, const Sizing& sizing, Given given = Given::input) : cdt_(cdt), sizing_(sizing)
+  Working_mesh_2(Cdt& cdt, const Sizing& sizing, Given given = Given::input)
+      : cdt_(cdt), relocator_(cdt), sizing_(sizing)
   {
     check_coordinates();
     const bool marked = std::any_of(cdt.finite_faces_begin(), cdt.finite_faces_end(),
@@ -251,18 +253,69 @@ public:
     return v;
   }
 
-  /// Removes a free vertex; the faces that fill its place belong to the domain. `faces()` is out of date afterwards.
-  void remove(Vertex_handle v)
+  /// Removes a free vertex; `faces()` is out of date afterwards.
+  /// \returns whether that was possible; it always is, short of collinear neighbors.
+  bool remove(Vertex_handle v)
   {
-    vertices_[v->id()] = Vertex_handle();
-    std::vector<Vertex_handle> link;
-    auto face = cdt_.incident_faces(v);
-    const auto done = face;
-    do link.push_back(face->vertex(Cdt::ccw(face->index(v))));
-    while (++face != done);
-    cdt_.remove(v);
-    mark_filled(link);
+    const std::vector<Vertex_handle> link = link_of(v);
+    if (!flip_down(v, 3)) return restore_star(v);
+    merge_star(v, v->face());
+    restore_delaunay_around(link);
+    return true;
   }
+
+  /// Ends of the edges of a Steiner vertex along its constraint; null handles if it hasn't two.
+  std::array<Vertex_handle, 2> neighbors_on_constraint(Vertex_handle v) const
+  {
+    std::array<Vertex_handle, 2> result;
+    int n = 0;
+    auto edge = cdt_.incident_edges(v);
+    const auto done = edge;
+    do {
+      if (!cdt_.is_constrained(*edge)) continue;
+      const Vertex_handle a = edge->first->vertex(Cdt::ccw(edge->second));
+      if (n < 2) result[n] = a == v ? edge->first->vertex(Cdt::cw(edge->second)) : a;
+      ++n;
+    } while (++edge != done);
+    return n == 2 ? result : std::array<Vertex_handle, 2>();
+  }
+
+  /// Removes a Steiner vertex from its constraint and joins its two edges; `faces()` is out of date afterwards.
+  /// \returns whether that was possible: the joined edge must keep to its side of all vertices around.
+  bool remove_from_constraint(Vertex_handle v)
+  {
+    const auto [a, b] = neighbors_on_constraint(v);
+    if (a == Vertex_handle()) return false;
+    const std::vector<Vertex_handle> link = link_of(v);
+    if (!flip_down(v, 4)) return restore_star(v);
+    Face_handle left, right; // of the edge from v to b
+    int i;
+    cdt_.is_edge(v, b, left, i);
+    if (left->vertex(Cdt::ccw(left->index(v))) != b) left = left->neighbor(i);
+    right = left->neighbor(Cdt::cw(left->index(v)));
+    const Vertex_handle l = left->vertex(Cdt::cw(left->index(v))), r = right->vertex(Cdt::ccw(right->index(v)));
+    const auto orientation = cdt_.geom_traits().orientation_2_object();
+    if (orientation(a->point(), b->point(), l->point()) != CGAL::LEFT_TURN ||
+        orientation(b->point(), a->point(), r->point()) != CGAL::LEFT_TURN)
+      return restore_star(v);
+    const bool right_inside = right->is_in_domain();
+    // Flipping the edge to l leaves v in a flat triangle with a and b, and with three neighbors.
+    cdt_.tds().flip(left, left->index(b));
+    merge_star(v, right);
+    right->set_in_domain(right_inside);
+    cdt_.is_edge(a, b, right, i);
+    const Face_handle other = right->neighbor(i);
+    right->set_constraint(i, true);
+    other->set_constraint(cdt_.mirror_index(right, i), true);
+    for (int k = 0; k < 3; ++k)
+      if (k != cdt_.mirror_index(right, i)) copy_constraint(other, k);
+    for (int k = 0; k < 3; ++k)
+      if (k != i) copy_constraint(right, k);
+    restore_delaunay_around(link);
+    return true;
+  }
+
+  Relocator_2<Cdt>& relocator() { return relocator_; }
 
 private:
   using Ends = std::pair<Vertex_handle, Vertex_handle>;
@@ -312,31 +365,62 @@ private:
     return orientation(apex, a, p) == CGAL::LEFT_TURN && orientation(apex, p, b) == CGAL::LEFT_TURN;
   }
 
-  /// Puts the faces inside of the closed polygon `link` into the domain.
-  void mark_filled(const std::vector<Vertex_handle>& link)
+  std::vector<Vertex_handle> link_of(Vertex_handle v) const
   {
-    std::vector<Face_handle> stack;
-    const auto push_out_of_domain = [&](Face_handle f) {
-      if (f->is_in_domain()) return;
-      f->set_in_domain(true);
-      stack.push_back(f);
-    };
-    std::map<Ends, char> border;
-    for (std::size_t k = 0; k < link.size(); ++k) {
-      const Vertex_handle a = link[k], b = link[(k + 1) % link.size()];
-      border[ends(a, b)] = 1;
-      Face_handle f;
-      int i;
-      if (!cdt_.is_edge(a, b, f, i)) continue;
-      if (f->vertex(Cdt::ccw(i)) != a) f = f->neighbor(i);
-      push_out_of_domain(f);
+    std::vector<Vertex_handle> link;
+    auto face = cdt_.incident_faces(v);
+    const auto done = face;
+    do link.push_back(face->vertex(Cdt::ccw(face->index(v))));
+    while (++face != done);
+    return link;
+  }
+
+  /// Flips unconstrained edges of v until it has no more than `degree` left. Each flip cuts an ear off the star, which
+  /// stays star-shaped around v.
+  bool flip_down(Vertex_handle v, std::size_t degree)
+  {
+    const auto orientation = cdt_.geom_traits().orientation_2_object();
+    while (cdt_.degree(v) > degree) {
+      auto face = cdt_.incident_faces(v);
+      const auto done = face;
+      bool flipped = false;
+      do {
+        const int i = face->index(v), left = Cdt::ccw(i); // the edge from v to the face's last vertex
+        Face_handle f = face;
+        const Face_handle next = f->neighbor(left);
+        if (f->is_constrained(left)) continue;
+        const auto &p = f->vertex(Cdt::ccw(i))->point(), &ear = f->vertex(Cdt::cw(i))->point(),
+                   &q = next->vertex(Cdt::cw(next->index(v)))->point();
+        flipped = orientation(p, ear, q) == CGAL::LEFT_TURN && orientation(p, q, v->point()) == CGAL::LEFT_TURN;
+        if (flipped) cdt_.flip(f, left);
+      } while (!flipped && ++face != done);
+      if (!flipped) return false;
     }
-    while (!stack.empty()) {
-      const Face_handle f = stack.back();
-      stack.pop_back();
-      for (int i = 0; i < 3; ++i)
-        if (!border.count(ends(f->vertex(Cdt::ccw(i)), f->vertex(Cdt::cw(i))))) push_out_of_domain(f->neighbor(i));
-    }
+    return true;
+  }
+
+  /// Makes one face of the three around v, and forgets v. The face's constraints are those of its neighbors.
+  void merge_star(Vertex_handle v, Face_handle f)
+  {
+    if (v->id() >= 0) vertices_[v->id()] = Vertex_handle();
+    cdt_.tds().remove_degree_3(v, f);
+    for (int i = 0; i < 3; ++i) copy_constraint(f, i);
+  }
+
+  void copy_constraint(Face_handle f, int i)
+  {
+    f->set_constraint(i, f->neighbor(i)->is_constrained(cdt_.mirror_index(f, i)));
+  }
+
+  bool restore_star(Vertex_handle v)
+  {
+    relocator_.restore_delaunay_around(v);
+    return false;
+  }
+
+  void restore_delaunay_around(const std::vector<Vertex_handle>& vertices)
+  {
+    for (const Vertex_handle w : vertices) relocator_.restore_delaunay_around(w);
   }
 
   [[noreturn]] static void throw_bad_size(const Point& p, double s)
@@ -347,6 +431,7 @@ private:
   }
 
   Cdt& cdt_;
+  Relocator_2<Cdt> relocator_;
   const Sizing& sizing_;
   CGAL::Bbox_2 bbox_;
   std::size_t input_vertices_ = 0;

@@ -239,18 +239,8 @@ private:
 
   Point target_on_constraint(Vertex_handle v) const
   {
-    const Triangulation& cdt = mesh_.triangulation();
-    std::array<Vertex_handle, 2> neighbor;
-    int n = 0;
-    auto edge = cdt.incident_edges(v);
-    const auto done = edge;
-    do {
-      if (!cdt.is_constrained(*edge)) continue;
-      const Vertex_handle a = edge->first->vertex(Triangulation::ccw(edge->second));
-      if (n < 2) neighbor[n] = a == v ? edge->first->vertex(Triangulation::cw(edge->second)) : a;
-      ++n;
-    } while (++edge != done);
-    if (n != 2) return v->point();
+    const auto neighbor = mesh_.neighbors_on_constraint(v);
+    if (neighbor[0] == Vertex_handle()) return v->point();
     return along_chain(v, neighbor[0], neighbor[1]);
   }
 

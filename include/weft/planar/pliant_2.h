@@ -85,37 +85,39 @@ private:
   {
     Face_handle f;
     for (int i = 0; i < 3; ++i)
-      if (find(t, f) && mesh_.vertices()[t[i]]->constraint() == free_vertex && try_removal(f, t[i])) return true;
+      if (find(t, f) && mesh_.vertices()[t[i]]->constraint() != fixed_vertex && try_removal(f, t[i])) return true;
     for (int k = 0; k < 4; ++k)
       if (find(t, f) && try_insertion(f, k)) return true;
     return false;
   }
 
-  /// Where the k-th trial inserts: in the middle of the edges, longest first, then in the middle of the face.
-  bool place(Face_handle f, int k, Point& p) const
+  /// Inserts at the place of the k-th trial: the middle of the edges, longest first, then the middle of the face.
+  Vertex_handle insert(Face_handle f, int k)
   {
-    p = CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point());
-    if (k == 3) return true;
+    if (k == 3)
+      return mesh_.insert_inside(CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()),
+                                 f);
     Triangle edges{0, 1, 2};
     std::sort(edges.begin(), edges.end(),
               [&](int i, int j) { return mesh_.squared_length(f, i) > mesh_.squared_length(f, j); });
     const int i = edges[k];
-    p = CGAL::midpoint(f->vertex(Triangulation::ccw(i))->point(), f->vertex(Triangulation::cw(i))->point());
-    return !f->is_constrained(i);
+    const Point p = CGAL::midpoint(f->vertex(Triangulation::ccw(i))->point(), f->vertex(Triangulation::cw(i))->point());
+    return f->is_constrained(i) ? mesh_.insert_on_constraint(p, f, i) : mesh_.insert_inside(p, f);
   }
 
   bool try_insertion(Face_handle f, int k)
   {
-    Point p;
-    if (!place(f, k, p)) return false;
     Region region = region_around(f);
-    const Vertex_handle v = mesh_.insert_inside(p, f);
+    const Vertex_handle v = insert(f, k);
     if (v == Vertex_handle()) return false;
     mesh_.adopt(v, static_cast<int>(mesh_.vertices().size()));
     region.vertices.push_back(v);
     if (settle(region.vertices) < worth_inserting * region.cost) return true;
     region.vertices.pop_back();
-    mesh_.remove(v);
+    if (v->constraint() < 0)
+      mesh_.remove(v);
+    else if (!mesh_.remove_from_constraint(v))
+      return true;
     put_back(region);
     return false;
   }
@@ -128,13 +130,34 @@ private:
     region.vertices.erase(region.vertices.begin() + at);
     region.points.erase(region.points.begin() + at);
     const Point p = v->point();
-    mesh_.remove(v);
+    const int constraint = v->constraint();
+    const auto [a, b] = constraint >= 0 ? mesh_.neighbors_on_constraint(v) : std::array<Vertex_handle, 2>();
+    if (constraint < 0)
+      mesh_.remove(v);
+    else if (a == Vertex_handle() || is_too_long(a, b) || !mesh_.remove_from_constraint(v))
+      return false;
     if (settle(region.vertices) < worth_removing * region.cost) return true;
     put_back(region);
-    const Vertex_handle again = mesh_.insert_inside(p, region.vertices.front()->face());
+    const Vertex_handle again =
+        constraint < 0 ? mesh_.insert_inside(p, region.vertices.front()->face()) : insert_between(a, b, p);
     if (again == Vertex_handle()) return true;
     mesh_.adopt(again, id);
     return false;
+  }
+
+  bool remove(Vertex_handle v) { return v->constraint() < 0 ? mesh_.remove(v) : mesh_.remove_from_constraint(v); }
+
+  bool is_too_long(Vertex_handle a, Vertex_handle b) const
+  {
+    const double size = mesh_.size(CGAL::midpoint(a->point(), b->point()));
+    return CGAL::to_double(CGAL::squared_distance(a->point(), b->point())) > size * size;
+  }
+
+  Vertex_handle insert_between(Vertex_handle a, Vertex_handle b, const Point& p)
+  {
+    Face_handle f;
+    int i;
+    return mesh_.triangulation().is_edge(a, b, f, i) ? mesh_.insert_on_constraint(p, f, i) : Vertex_handle();
   }
 
   Region region_around(Face_handle f)
@@ -191,7 +214,7 @@ private:
   /// Puts a region back as it was. Where rounding or flips forbid that, the mesh stays valid all the same.
   void put_back(const Region& region)
   {
-    polisher_.relocator().move(region.vertices, region.points);
+    mesh_.relocator().move(region.vertices, region.points);
     for (const Vertex_handle v : region.vertices) mesh_.update_target(v);
   }
 

@@ -10,7 +10,6 @@
 #define WEFT_PLANAR_POLISH_2_H
 
 #include <weft/planar/Triangulation_2.h>
-#include <weft/relocate/Relocator_2.h>
 
 #include <algorithm>
 #include <array>
@@ -32,7 +31,9 @@ public:
   using Vertex_handle = typename Mesh::Vertex_handle;
   using Face_handle = typename Mesh::Face_handle;
 
-  explicit Polisher_2(Mesh& mesh) : mesh_(mesh), relocator_(mesh.triangulation()) {}
+  static constexpr double oversize_cost = 1e12; ///< what an edge that is too long costs at least
+
+  explicit Polisher_2(Mesh& mesh) : mesh_(mesh) {}
 
   /// To be called when the mesh has changed otherwise than by this polisher.
   void reset() { hopeless_.assign(mesh_.vertices().size(), 0); }
@@ -61,8 +62,9 @@ public:
 
   std::size_t flips() const { return flips_; }
 
-  /// How bad a triangle is: 0 for angles within [37, 94] degrees, 1 at 32 or 102 degrees, more beyond; 10 and up with
-  /// an edge that is too long. Angles between two constraints don't count, they can't be mended.
+  /// What a triangle costs: 0 while its angles lie within [50, 80] degrees, 1 at 37 or 94 degrees, without bound
+  /// towards 0 and 180; far more with an edge that is too long. Angles between two constraints don't count, they can't
+  /// be mended.
   double cost(Face_handle f) const
   {
     return cost(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0));
@@ -80,7 +82,7 @@ public:
     const double before = cost;
     if (cost < negligible) return false;
     const Point best = constraint >= 0 ? search_on_constraint(v, cost) : search(v, cost);
-    if (best == old || !relocator_.move_within_star(v, best, flips_)) return false;
+    if (best == old || !mesh_.relocator().move_within_star(v, best, flips_)) return false;
     mesh_.update_target(v);
     if (cost_around(v) <= before) {
       give_hope_around(v);
@@ -88,7 +90,7 @@ public:
     }
     // The flips made it worse than had been promised: go back. Flips on the way back restore the old edges, up to
     // cocircular ones.
-    relocator_.move_within_star(v, old, flips_);
+    mesh_.relocator().move_within_star(v, old, flips_);
     mesh_.update_target(v);
     return false;
   }
@@ -123,12 +125,11 @@ public:
     while (++neighbor != done);
   }
 
-  Relocator_2<Triangulation>& relocator() { return relocator_; }
-
 private:
-  static constexpr double cos_small = 0.643, small_step = 0.156, cos_large = 0.174, large_step = 0.244;
+  // Cotangents of 50 and 37 degrees, where a small angle begins to cost and where it costs 1; of 80 and 94 degrees.
+  static constexpr double cot_small = 0.839, cot_small_limit = 1.327, cot_large = 0.176, cot_large_limit = -0.070;
 
-  static constexpr double oversize_cost = 1e4, negligible = 0.01;
+  static constexpr double negligible = 0.01;
 
   struct Star_face
   {
@@ -149,19 +150,21 @@ private:
     const double px = CGAL::to_double(p.x()), py = CGAL::to_double(p.y());
     const double ax = CGAL::to_double(q.x()) - px, ay = CGAL::to_double(q.y()) - py;
     const double bx = CGAL::to_double(r.x()) - px, by = CGAL::to_double(r.y()) - py;
-    if (!(ax * by - ay * bx > 0)) return std::numeric_limits<double>::infinity();
+    const double doubled = 2 * (ax * by - ay * bx);
+    if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
     const double r2 = ax * ax + ay * ay, q2 = bx * bx + by * by,
                  p2 = (bx - ax) * (bx - ax) + (by - ay) * (by - ay); // squared lengths opposite p, q, r
-    const double pl = std::sqrt(p2), ql = std::sqrt(q2), rl = std::sqrt(r2);
-    const std::array<double, 3> cosine{(q2 + r2 - p2) / (2 * ql * rl), (p2 + r2 - q2) / (2 * pl * rl),
-                                       (p2 + q2 - r2) / (2 * pl * ql)};
-    double result = 0;
-    for (int i = 0; i < 3; ++i)
-      if (!given[i])
-        result = (std::max)({result, (cosine[i] - cos_small) / small_step, (cos_large - cosine[i]) / large_step});
-    const double ratio = (std::max)({pl, ql, rl}) / mesh_.size(Point(px + (ax + bx) / 3, py + (ay + by) / 3));
-    const double r2_ = result * result, r4 = r2_ * r2_, cost = r4 * r4;
-    return ratio > 1 ? cost + oversize_cost * (1 + 100 * (ratio - 1)) : cost;
+    const std::array<double, 3> cotangent{(q2 + r2 - p2) / doubled, (p2 + r2 - q2) / doubled, (p2 + q2 - r2) / doubled};
+    double small = 0, large = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (given[i]) continue;
+      small = (std::max)(small, (cotangent[i] - cot_small) / (cot_small_limit - cot_small));
+      large = (std::max)(large, (cotangent[i] - cot_large) / (cot_large_limit - cot_large));
+    }
+    const double s2 = small * small, l2 = large * large, cost = (std::max)(s2 * s2, l2 * l2 * l2 * l2);
+    const double size = mesh_.size(Point(px + (ax + bx) / 3, py + (ay + by) / 3));
+    const double squared_ratio = (std::max)({p2, q2, r2}) / (size * size);
+    return squared_ratio > 1 ? cost + oversize_cost * squared_ratio : cost;
   }
 
   bool load_star(Vertex_handle v)
@@ -235,7 +238,6 @@ private:
   }
 
   Mesh& mesh_;
-  Relocator_2<Triangulation> relocator_;
   std::vector<Star_face> star_;
   std::vector<char> hopeless_; // by vertex id: tried in vain, and nothing near it has changed since
   std::size_t flips_ = 0;

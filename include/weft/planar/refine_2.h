@@ -51,7 +51,11 @@ public:
     const Triangulation& cdt = mesh_.triangulation();
     for (auto e = cdt.constrained_edges_begin(); e != cdt.constrained_edges_end(); ++e) {
       const auto [f, i] = *e;
-      if (f->is_in_domain() || f->neighbor(i)->is_in_domain()) consider(mesh_.edge_ratio(f, i), f, i);
+      const Face_handle n = f->neighbor(i);
+      if (f->is_in_domain())
+        consider(mesh_.edge_ratio(f, i), f, i);
+      else if (n->is_in_domain())
+        consider(mesh_.edge_ratio(f, i), n, n->index(f));
     }
     for (const Face_handle f : mesh_.faces()) consider(mesh_.ratio(f), f, whole_face);
     if (max_cosine_ < 1 && bad_.empty())

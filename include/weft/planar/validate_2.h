@@ -66,7 +66,7 @@ struct Fault_2
 /// What the checks found.
 struct Validity_2
 {
-  static constexpr std::size_t most_listed = 1000; ///< faults of one kind; more are only counted
+  static constexpr std::size_t most_listed = 100; ///< faults of one kind; more are only counted
 
   std::vector<Fault_2> faults;         ///< in the order in which they were found
   std::array<std::size_t, 6> counts{}; ///< number of faults by kind, listed or not
@@ -181,10 +181,14 @@ public:
   }
 
 private:
+  // The maps take null for a key of theirs.
+  bool is_vertex(Vertex_handle v) const { return v != Vertex_handle() && faces_at_.is_defined(v); }
+  bool is_face(Face_handle f) const { return f != Face_handle() && is_face_.is_defined(f); }
+
   void check_vertices(Face_handle f)
   {
     bool known = true;
-    for (int i = 0; i < 3; ++i) known = known && faces_at_.is_defined(f->vertex(i));
+    for (int i = 0; i < 3; ++i) known = known && is_vertex(f->vertex(i));
     if (!known) {
       validity_.add(Fault_kind::structure, "a face has a vertex that isn't one of the triangulation");
       return;
@@ -198,7 +202,7 @@ private:
   {
     for (int i = 0; i < 3; ++i) {
       const Face_handle n = f->neighbor(i);
-      if (!is_face_.is_defined(n)) {
+      if (!is_face(n)) {
         validity_.add(Fault_kind::structure, "an edge has no face on its other side", ends(cdt_, f, i));
         continue;
       }
@@ -218,7 +222,7 @@ private:
   {
     const Face_handle start = v->face();
     int turned = 0;
-    if (is_face_.is_defined(start) && start->has_vertex(v)) {
+    if (is_face(start) && start->has_vertex(v)) {
       Face_handle f = start;
       do {
         f = f->neighbor(Cdt::ccw(f->index(v)));
@@ -674,8 +678,9 @@ Validity_2 check_domain_2(const Cdt& cdt)
 template <class Cdt, class K>
 Validity_2 check_domain_2(const Cdt& cdt, const Pslg_2<K>& pslg)
 {
-  Validity_2 validity = pslg.holes.empty() ? internal::check_parity(cdt) : internal::check_holes(cdt, pslg.holes);
+  Validity_2 validity;
   internal::check_area(cdt, pslg, validity);
+  validity += pslg.holes.empty() ? internal::check_parity(cdt) : internal::check_holes(cdt, pslg.holes);
   return validity;
 }
 
