@@ -57,7 +57,7 @@ public:
 
 private:
   // What a kept change must leave of the neighborhood's cost.
-  static constexpr double worth_inserting = 0.5, worth_removing = 0.8;
+  static constexpr double worth_inserting = 0.75, worth_removing = 0.8;
 
   using Triangle = std::array<int, 3>; // by vertex ids, since trials replace vertices and faces
 
@@ -182,7 +182,7 @@ private:
   /// Polishes the vertices and returns the cost of the triangles around them.
   double settle(const std::vector<Vertex_handle>& vertices)
   {
-    constexpr int most_rounds = 6;
+    constexpr int most_rounds = 8;
     for (const Vertex_handle v : vertices) polisher_.give_hope(v);
     for (int round = 0; round < most_rounds; ++round) {
       bool moved = false;

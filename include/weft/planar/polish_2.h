@@ -31,7 +31,7 @@ public:
   using Vertex_handle = typename Mesh::Vertex_handle;
   using Face_handle = typename Mesh::Face_handle;
 
-  static constexpr double oversize_cost = 1e12; ///< what an edge that is too long costs at least
+  static constexpr double oversize_cost = 1e30; ///< what an edge that is too long costs at least
 
   explicit Polisher_2(Mesh& mesh) : mesh_(mesh) {}
 
@@ -161,7 +161,7 @@ private:
       small = (std::max)(small, (cotangent[i] - cot_small) / (cot_small_limit - cot_small));
       large = (std::max)(large, (cotangent[i] - cot_large) / (cot_large_limit - cot_large));
     }
-    const double s2 = small * small, l2 = large * large, cost = (std::max)(s2 * s2, l2 * l2 * l2 * l2);
+    const double s2 = small * small, l2 = large * large, cost = (std::max)(s2 * s2 * s2 * s2, l2 * l2 * l2 * l2);
     const double size = mesh_.size(Point(px + (ax + bx) / 3, py + (ay + by) / 3));
     const double squared_ratio = (std::max)({p2, q2, r2}) / (size * size);
     return squared_ratio > 1 ? cost + oversize_cost * squared_ratio : cost;

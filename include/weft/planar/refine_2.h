@@ -48,6 +48,7 @@ public:
   {
     bad_.clear();
     largest_ratio_ = 0;
+    oversized_ = 0;
     const Triangulation& cdt = mesh_.triangulation();
     for (auto e = cdt.constrained_edges_begin(); e != cdt.constrained_edges_end(); ++e) {
       const auto [f, i] = *e;
@@ -67,6 +68,31 @@ public:
 
   /// Largest sizing ratio seen by `find_bad()`.
   double largest_ratio() const { return largest_ratio_; }
+
+  /// Triangles and constrained edges that `find_bad()` found too large.
+  std::size_t oversized() const { return oversized_; }
+
+  /// Triangles with angles below the bound.
+  struct Sharp_triangles
+  {
+    std::size_t mendable = 0; ///< with such an angle that isn't an input angle
+    std::size_t given = 0;    ///< with such an input angle
+  };
+
+  Sharp_triangles count_sharp() const
+  {
+    Sharp_triangles result;
+    if (max_cosine_ > 1) return result;
+    for (const Face_handle f : mesh_.faces()) {
+      bool given = false;
+      for (int i = 0; i < 3; ++i) given = given || (is_input_angle(f, i) && cosine(f, i) > max_cosine_);
+      if (given)
+        ++result.given;
+      else if (is_too_sharp(f))
+        ++result.mendable;
+    }
+    return result;
+  }
 
   /// Inserts one batch of Steiner points for the elements that `find_bad()` found.
   /// \param most number of points at most.
@@ -134,7 +160,9 @@ private:
   void consider(double ratio, Face_handle f, int edge)
   {
     largest_ratio_ = (std::max)(largest_ratio_, ratio);
-    if (ratio > 1) bad_.push_back({ratio, key(f), f, edge});
+    if (ratio <= 1) return;
+    bad_.push_back({ratio, key(f), f, edge});
+    ++oversized_;
   }
 
   double cosine(Face_handle f, int i) const
@@ -231,6 +259,7 @@ private:
   Mesh& mesh_;
   double max_cosine_;
   double largest_ratio_ = 0;
+  std::size_t oversized_ = 0;
   std::vector<Bad> bad_;
   std::vector<Choice> chosen_;
 };
