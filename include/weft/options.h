@@ -30,7 +30,7 @@ struct Mesh_options_2
   int quadrature = 10;            ///< quadrature triangles a Voronoi cell while refining; ignored by uniform sizing
   int final_quadrature = 100;     ///< the same for the last relaxation
   double size_feedback = 3;       ///< exponent with which long edges draw vertices near; 0 is Lloyd's iteration proper
-  int max_sweeps = 40;            ///< most sweeps a relaxation
+  int max_sweeps = 12;            ///< most sweeps a relaxation
   int max_batches = 400;          ///< most batches of refinement
 
   double min_angle = 0;    ///< smallest angle in degrees to refine for, where the input allows it; 0: only sizes count

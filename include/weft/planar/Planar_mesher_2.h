@@ -84,7 +84,7 @@ private:
 
   // Costs from which triangles are polished (38 degrees) and mended by inserting or removing a vertex (37 degrees).
   static constexpr double polish_cost = 0.5, pliant_cost = 1;
-  static constexpr int most_pliant_passes = 3;
+  static constexpr int most_pliant_passes = 6;
 
   template <class Function>
   void timed(Stage stage, const Function& function)

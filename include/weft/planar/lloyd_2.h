@@ -54,7 +54,9 @@ public:
   {
     tag_blind(faces);
     if (!faces.empty()) unit_ = mesh_.target(faces.front()->vertex(0));
-    cells_.assign(mesh_.vertices().size(), Cell());
+    cells_.resize(mesh_.vertices().size());
+    for (const Face_handle f : faces)
+      for (int i = 0; i < 3; ++i) cells_[f->vertex(i)->id()] = Cell();
     if (threads_ <= 1) {
       for (const Face_handle f : faces) add(f, kites(f));
     } else {
