@@ -76,7 +76,12 @@ public:
       chains_.push_back({a, b});
     }
     add_frame();
-    renumber();
+    try {
+      renumber();
+    } catch (...) { // there will be no destructor
+      finish();
+      throw;
+    }
   }
 
   Working_mesh_2(const Working_mesh_2&) = delete;
@@ -232,6 +237,8 @@ public:
       if (face->vertex(Cdt::ccw(face->index(v))) == a) side = right;
       face->set_in_domain(side);
     } while (++face != start);
+    // Where rounding bends the constraint, edges that end at v may not be Delaunay; CGAL looks at those opposite only.
+    relocator_.restore_delaunay_around(v);
     return v;
   }
 

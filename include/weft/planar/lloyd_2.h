@@ -55,8 +55,11 @@ public:
     tag_blind(faces);
     if (!faces.empty()) unit_ = mesh_.target(faces.front()->vertex(0));
     cells_.resize(mesh_.vertices().size());
-    for (const Face_handle f : faces)
-      for (int i = 0; i < 3; ++i) cells_[f->vertex(i)->id()] = Cell();
+    if (faces.size() > mesh_.vertices().size())
+      cells_.assign(mesh_.vertices().size(), Cell());
+    else
+      for (const Face_handle f : faces)
+        for (int i = 0; i < 3; ++i) cells_[f->vertex(i)->id()] = Cell();
     if (threads_ <= 1) {
       for (const Face_handle f : faces) add(f, kites(f));
     } else {

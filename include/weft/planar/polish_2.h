@@ -11,6 +11,9 @@
 
 #include <weft/planar/Triangulation_2.h>
 
+#include <CGAL/Kernel/global_functions.h>
+#include <CGAL/squared_distance_2.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,7 +70,8 @@ public:
   /// be mended.
   double cost(Face_handle f) const
   {
-    return cost(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0));
+    return cost(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0),
+                size_at_centroid(f));
   }
 
   /// Tries to move one vertex to a better place; flips afterwards. Returns whether it moved.
@@ -101,9 +105,13 @@ public:
     double sum = 0;
     auto face = mesh_.triangulation().incident_faces(v);
     const auto done = face;
-    do
+    do {
       if (face->is_in_domain()) sum += cost(face);
-    while (++face != done);
+      const int edge = Triangulation::cw(face->index(v));
+      if (!face->is_constrained(edge)) continue;
+      const double ratio = mesh_.edge_ratio(face, edge);
+      sum += oversize(ratio * ratio);
+    } while (++face != done);
     return sum;
   }
 
@@ -135,7 +143,22 @@ private:
   {
     Point a, b; // counterclockwise after the vertex
     std::array<bool, 3> given;
+    double size; // at the centroid before the search: moves are short against the distance in which sizes change
   };
+
+  /// A constrained edge at the vertex, with the size in its middle before the search.
+  struct Chain_edge
+  {
+    Point end;
+    double size;
+  };
+
+  static double oversize(double squared_ratio) { return squared_ratio > 1 ? oversize_cost * squared_ratio : 0; }
+
+  double size_at_centroid(Face_handle f) const
+  {
+    return mesh_.size(CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()));
+  }
 
   /// Which angles of the face, from corner i on, lie between constraints.
   static std::array<bool, 3> given_angles(Face_handle f, int i)
@@ -145,7 +168,7 @@ private:
     return {e1 && e2, e2 && e0, e0 && e1};
   }
 
-  double cost(const Point& p, const Point& q, const Point& r, const std::array<bool, 3>& given) const
+  double cost(const Point& p, const Point& q, const Point& r, const std::array<bool, 3>& given, double size) const
   {
     const double px = CGAL::to_double(p.x()), py = CGAL::to_double(p.y());
     const double ax = CGAL::to_double(q.x()) - px, ay = CGAL::to_double(q.y()) - py;
@@ -162,21 +185,24 @@ private:
       large = (std::max)(large, (cotangent[i] - cot_large) / (cot_large_limit - cot_large));
     }
     const double s2 = small * small, l2 = large * large, cost = (std::max)(s2 * s2 * s2 * s2, l2 * l2 * l2 * l2);
-    const double size = mesh_.size(Point(px + (ax + bx) / 3, py + (ay + by) / 3));
-    const double squared_ratio = (std::max)({p2, q2, r2}) / (size * size);
-    return squared_ratio > 1 ? cost + oversize_cost * squared_ratio : cost;
+    return cost + oversize((std::max)({p2, q2, r2}) / (size * size));
   }
 
   bool load_star(Vertex_handle v)
   {
     star_.clear();
+    chain_.clear();
     auto face = mesh_.triangulation().incident_faces(v);
     const auto done = face;
     do {
       const int i = face->index(v);
+      if (face->is_constrained(Triangulation::cw(i))) {
+        const Point& q = face->vertex(Triangulation::ccw(i))->point();
+        chain_.push_back({q, mesh_.size(CGAL::midpoint(v->point(), q))});
+      }
       if (face->is_in_domain())
         star_.push_back({face->vertex(Triangulation::ccw(i))->point(), face->vertex(Triangulation::cw(i))->point(),
-                         given_angles(face, i)});
+                         given_angles(face, i), size_at_centroid(face)});
     } while (++face != done);
     return !star_.empty();
   }
@@ -186,9 +212,11 @@ private:
   {
     double sum = 0;
     for (const Star_face& s : star_) {
-      sum += cost(p, s.a, s.b, s.given);
+      sum += cost(p, s.a, s.b, s.given, s.size);
       if (sum >= stop) break;
     }
+    for (const Chain_edge& e : chain_)
+      sum += oversize(CGAL::to_double(CGAL::squared_distance(p, e.end)) / (e.size * e.size));
     return sum;
   }
 
@@ -208,7 +236,12 @@ private:
                  dy = CGAL::to_double(chain.target->point().y() - chain.source->point().y()),
                  l = std::sqrt(dx * dx + dy * dy);
     const std::array<std::array<double, 2>, 2> directions{{{dx / l, dy / l}, {-dx / l, -dy / l}}};
-    return compass(v, directions, lowest);
+    const Point best = compass(v, directions, lowest);
+    if (best == v->point()) return best;
+    // Many small steps would drift off the line.
+    const double sx = CGAL::to_double(chain.source->point().x()), sy = CGAL::to_double(chain.source->point().y());
+    const double f = ((CGAL::to_double(best.x()) - sx) * dx + (CGAL::to_double(best.y()) - sy) * dy) / (l * l);
+    return Point(sx + f * dx, sy + f * dy);
   }
 
   template <std::size_t N>
@@ -239,6 +272,7 @@ private:
 
   Mesh& mesh_;
   std::vector<Star_face> star_;
+  std::vector<Chain_edge> chain_;
   std::vector<char> hopeless_; // by vertex id: tried in vain, and nothing near it has changed since
   std::size_t flips_ = 0;
 };

@@ -12,6 +12,7 @@
 #ifndef WEFT_PLANAR_REFINE_2_H
 #define WEFT_PLANAR_REFINE_2_H
 
+#include <weft/planar/blind_triangle_2.h>
 #include <weft/planar/Triangulation_2.h>
 
 #include <CGAL/number_utils.h>
@@ -227,7 +228,8 @@ private:
   Vertex_handle insert_circumcenter(Face_handle f, int longest)
   {
     const Triangulation& cdt = mesh_.triangulation();
-    const Point c = cdt.circumcenter(f);
+    const Point c = internal::accurate_circumcenter<typename Triangulation::Geom_traits>(
+        f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point());
     Face_handle here = f;
     // Walk towards the circumcenter; each step crosses the edge that separates it from the face.
     for (std::size_t steps = 0; steps < most_steps; ++steps) {

@@ -29,12 +29,13 @@ std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Siz
   std::vector<double> at(1, 0), metric(1, 0);
   double t = 0, h = size_at(0);
   while (t < 1 && metric.back() < static_cast<double>(most) + 2) {
-    const double next = (std::min)(1.0, t + (std::max)(0.125 * h / length, 1e-9)), k = size_at(next);
+    const double next = (std::min)(1.0, t + (std::max)(0.125 * h / length, 1e-15)), k = size_at(next);
     metric.push_back(metric.back() + 0.5 * (next - t) * length * (1 / h + 1 / k));
     at.push_back(next);
     t = next;
     h = k;
   }
+  if (!(metric.back() < static_cast<double>(most) + 2)) return std::vector<double>(most + 1, 0.5);
   // The slack keeps a segment of exactly one size in one piece.
   double n = (std::max)(1.0, std::ceil(metric.back() * (1 - 1e-12)));
   while (wanted * (n + 1) / metric.back() < metric.back() / (n * wanted)) ++n; // nearer as a ratio

@@ -14,6 +14,7 @@
 #define WEFT_PLANAR_SEED_CRYSTALS_2_H
 
 #include <weft/internal/Point_quadtree_2.h>
+#include <weft/planar/blind_triangle_2.h>
 #include <weft/planar/mark_domain.h>
 
 #include <CGAL/number_utils.h>
@@ -58,8 +59,12 @@ public:
     if (done) done = fill_voids(max_vertices, go_on);
     CGAL::spatial_sort(points_.begin(), points_.end(), cdt.geom_traits());
     Face_handle hint;
-    for (const Point& p : points_)
+    std::size_t inserted = 0;
+    for (const Point& p : points_) {
+      if (++inserted % 4096 == 0 && done) done = go_on(cdt.number_of_vertices());
+      if (!done) break; // an empty lattice is as good as half of one
       if (const Vertex_handle v = mesh_.insert_inside(p, hint); v != Vertex_handle()) hint = v->face();
+    }
     return done;
   }
 
@@ -88,6 +93,7 @@ private:
   /// Takes the place at p if there is space, and queues p for breeding.
   bool settle(const Point& p, Face_handle hint, int room, double direction)
   {
+    if (!is_in_box(p)) return false;
     const double h = spacing(p);
     if (tree_.any_within(CGAL::to_double(p.x()), CGAL::to_double(p.y()), clearance * h)) return false;
     const Triangulation& cdt = mesh_.triangulation();
@@ -157,12 +163,14 @@ private:
       const Germ germ = front_.front();
       front_.pop_front();
       const std::size_t n = mesh_.vertices().size() + points_.size();
-      if (n >= max_vertices || (points_.size() % 1024 == 0 && !go_on(n))) return false;
+      if (n >= max_vertices || (++germs_ % 1024 == 0 && !go_on(n))) return false;
       const double h = spacing(germ.point), x = CGAL::to_double(germ.point.x()), y = CGAL::to_double(germ.point.y());
       for (int k = 0; k < 6; ++k) {
         const double c = std::cos(germ.direction + k * sixty), s = std::sin(germ.direction + k * sixty);
         // The size halfway is the edge's own.
-        const double length = mesh_.is_uniform() ? h : spacing(Point(x + 0.5 * h * c, y + 0.5 * h * s));
+        const Point halfway(x + 0.5 * h * c, y + 0.5 * h * s);
+        if (!is_in_box(halfway)) continue;
+        const double length = mesh_.is_uniform() ? h : spacing(halfway);
         settle(Point(x + length * c, y + length * s), germ.face, germ.face->id(), germ.direction);
       }
     }
@@ -173,21 +181,26 @@ private:
   template <class Go_on>
   bool fill_voids(std::size_t max_vertices, const Go_on& go_on)
   {
-    const Triangulation& cdt = mesh_.triangulation();
     std::vector<std::pair<double, std::size_t>> voids;
     for (std::size_t i = 0; i < mesh_.faces().size(); ++i) {
       const Face_handle f = mesh_.faces()[i];
-      const double r = CGAL::to_double(CGAL::squared_distance(cdt.circumcenter(f), f->vertex(0)->point()));
+      const double r = CGAL::to_double(CGAL::squared_distance(center(f), f->vertex(0)->point()));
       voids.emplace_back(-r, i); // ties go to the earlier face
     }
     std::sort(voids.begin(), voids.end());
     for (const auto& [r, i] : voids) {
       const Face_handle f = mesh_.faces()[i];
-      const Point c = cdt.circumcenter(f);
+      const Point c = center(f);
       if (!is_in_box(c) || !settle(c, f, f->id(), directions_[f->id()])) continue;
       if (!grow(max_vertices, go_on)) return false;
     }
     return true;
+  }
+
+  Point center(Face_handle f) const
+  {
+    return internal::accurate_circumcenter<typename Triangulation::Geom_traits>(
+        f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point());
   }
 
   bool is_in_box(const Point& p) const
@@ -202,6 +215,7 @@ private:
   std::vector<double> directions_; // by room
   std::vector<Point> points_;
   std::deque<Germ> front_;
+  std::size_t germs_ = 0; // that have bred
 };
 
 } // namespace weft

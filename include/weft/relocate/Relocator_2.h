@@ -154,9 +154,10 @@ private:
       faces_.push_back(f);
     };
     if (4 * vertices.size() > cdt_.number_of_vertices()) { // in storage order, which is kinder to the cache
-      for (const Face_handle f : cdt_.all_face_handles()) f->set_id(-1);
-      for (const Face_handle f : cdt_.finite_face_handles())
+      for (const Face_handle f : cdt_.all_face_handles()) {
+        f->set_id(-1);
         if (has_moved(f->vertex(0)) || has_moved(f->vertex(1)) || has_moved(f->vertex(2))) append(f);
+      }
       return;
     }
     for_faces_around(vertices, [](Face_handle f) {

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the command-line programs share: options, numbers, interruption, a progress bar, and files that appear complete
+// or not at all.
+
+#ifndef WEFT_EXAMPLES_COMMAND_LINE_H
+#define WEFT_EXAMPLES_COMMAND_LINE_H
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#ifdef _WIN32
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
+
+namespace command_line {
+
+/// What a user can set right; `what()` is one line.
+class Error : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+// ---- Options
+
+/// An option that a program knows.
+struct Option
+{
+  std::string name;  ///< with its dashes
+  std::string value; ///< what its value is called; empty if it has none
+  std::string help;  ///< a line break starts a new line in the list of options
+  bool repeatable = false;
+};
+
+/// The lines of a list of options.
+inline std::string describe(const std::vector<Option>& options)
+{
+  constexpr std::size_t indent = 26;
+  std::string text;
+  for (const Option& option : options) {
+    std::string line = "  " + option.name + (option.value.empty() ? "" : " " + option.value);
+    line.resize(std::max(line.size() + 1, indent), ' ');
+    for (const char c : option.help) line += c == '\n' ? "\n" + std::string(indent, ' ') : std::string(1, c);
+    text += line + "\n";
+  }
+  return text;
+}
+
+/// The arguments of a program, checked against the options that it knows. Values follow as the next argument or after
+/// an equals sign; after "--" everything is an operand.
+class Arguments
+{
+public:
+  /// \throws Error for unknown options, missing or unwanted values, and options given twice that may not be.
+  Arguments(const std::vector<Option>& known, int argc, const char* const* argv)
+  {
+    const std::vector<std::string> given(argv + 1, argv + argc);
+    for (auto argument = given.begin(); argument != given.end(); ++argument) {
+      if (*argument == "--") {
+        operands_.insert(operands_.end(), argument + 1, given.end());
+        break;
+      }
+      if (argument->size() < 2 || argument->front() != '-')
+        operands_.push_back(*argument);
+      else
+        take_option(known, argument, given.end());
+    }
+  }
+
+  const std::vector<std::string>& operands() const { return operands_; }
+  bool has(const std::string& name) const { return values_.count(name) > 0; }
+
+  /// Every value of an option, in order.
+  std::vector<std::string> values(const std::string& name) const
+  {
+    const auto found = values_.find(name);
+    return found == values_.end() ? std::vector<std::string>() : found->second;
+  }
+
+  /// The value of an option, or an empty string.
+  std::string value(const std::string& name) const { return has(name) ? values_.at(name).front() : std::string(); }
+
+  /// A positive finite number. \throws Error if the value is anything else, even if it only begins like one.
+  std::optional<double> positive(const std::string& name) const
+  {
+    if (!has(name)) return {};
+    const auto number = parse<double>(value(name));
+    if (!number || !std::isfinite(*number) || !(*number > 0)) refuse(name, "a positive number");
+    return number;
+  }
+
+  /// An integer in a range. \throws Error as above.
+  template <class Integer>
+  std::optional<Integer> integer(const std::string& name, Integer least, Integer most) const
+  {
+    if (!has(name)) return {};
+    const auto number = parse<Integer>(value(name));
+    if (!number || *number < least || *number > most)
+      refuse(name, "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+    return number;
+  }
+
+private:
+  using Iterator = std::vector<std::string>::const_iterator;
+
+  void take_option(const std::vector<Option>& known, Iterator& argument, Iterator end)
+  {
+    const std::size_t equals = std::min(argument->find('='), argument->size());
+    const std::string name = argument->substr(0, equals);
+    const auto option =
+        std::find_if(known.begin(), known.end(), [&name](const Option& other) { return other.name == name; });
+    if (option == known.end()) throw Error("unknown option '" + name + "'");
+    if (has(name) && !option->repeatable) throw Error(name + " is given twice");
+
+    std::string value;
+    if (equals < argument->size()) {
+      if (option->value.empty()) throw Error(name + " takes no value");
+      value = argument->substr(equals + 1);
+    } else if (!option->value.empty()) {
+      // Negative numbers are values, if bad ones; two dashes are the next option.
+      if (argument + 1 == end || (argument + 1)->substr(0, 2) == "--") throw Error(name + " needs a value");
+      value = *++argument;
+    }
+    if (value.empty() && !option->value.empty()) throw Error(name + " needs a value");
+    values_[name].push_back(value);
+  }
+
+  template <class Number>
+  static std::optional<Number> parse(const std::string& text)
+  {
+    Number number{};
+    const char* const end = text.data() + text.size();
+    const auto result = std::from_chars(text.data(), end, number);
+    if (result.ec != std::errc() || result.ptr != end) return {};
+    return number;
+  }
+
+  [[noreturn]] void refuse(const std::string& name, const std::string& wanted) const
+  {
+    throw Error(name + ": '" + value(name) + "' is not " + wanted);
+  }
+
+  std::vector<std::string> operands_;
+  std::map<std::string, std::vector<std::string>> values_;
+};
+
+/// Whether the name of a file ends as wanted (".svg", lower case).
+inline bool has_extension(const std::string& filename, const std::string& wanted)
+{
+  std::string extension = std::filesystem::path(filename).extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension == wanted;
+}
+
+/// Writes "PROGRAM: WHAT" to standard error, as one line whatever `what` contains.
+inline void complain(const std::string& program, std::string what)
+{
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), what.c_str());
+}
+
+// ---- Interruption
+
+/// Turns Ctrl-C (or SIGTERM) into a wish that a program looks at when it suits it. Another one a second later or more
+/// ends the program as usual; sooner it is the same wish, which some senders deliver twice.
+class Interruption
+{
+public:
+  Interruption()
+  {
+    for (const int signal : {SIGINT, SIGTERM})
+      if (std::signal(signal, note) == SIG_IGN) std::signal(signal, SIG_IGN); // as nohup wants it
+  }
+  static bool wished() { return first_ != 0; }
+
+private:
+  static void note(int signal)
+  {
+    const auto now = static_cast<long>(std::time(nullptr));
+    if (first_ == 0) first_ = now;
+    // Some systems restore the default before they call this.
+    std::signal(signal, now > first_ + 1 ? SIG_DFL : note);
+    if (now > first_ + 1) std::raise(signal);
+  }
+  static inline std::atomic<long> first_{0}; // lock-free, as a signal handler needs it
+};
+
+// ---- Progress
+
+/// A bar on the last line of the terminal that standard error is; nothing at all if it isn't one.
+class Progress_bar
+{
+public:
+  explicit Progress_bar(bool wanted) : is_shown_(wanted && is_terminal()) {}
+  ~Progress_bar() { clear(); }
+  Progress_bar(const Progress_bar&) = delete;
+  Progress_bar& operator=(const Progress_bar&) = delete;
+
+  /// \param part in [0, 1]; the bar never goes back. \param text what is being done, some 45 characters.
+  void show(double part, const std::string& text)
+  {
+    using namespace std::chrono;
+    part_ = std::clamp(part, part_, 1.);
+    const auto now = steady_clock::now();
+    if (!is_shown_ || now - last_ < milliseconds(80)) return;
+    last_ = now;
+    constexpr int width = 28;
+    const int full = static_cast<int>(part_ * width);
+    const std::string line = "[" + std::string(full, '#') + std::string(width - full, '.') + "] " + text;
+    std::fprintf(stderr, "\r%.78s\033[K", line.c_str());
+    std::fflush(stderr);
+    is_dirty_ = true;
+  }
+
+  /// Removes the bar and begins anew.
+  void clear()
+  {
+    part_ = 0;
+    if (!is_dirty_) return;
+    std::fputs("\r\033[K", stderr);
+    std::fflush(stderr);
+    is_dirty_ = false;
+  }
+
+private:
+  static bool is_terminal()
+  {
+#ifdef _WIN32
+    return _isatty(_fileno(stderr));
+#else
+    return isatty(STDERR_FILENO);
+#endif
+  }
+
+  bool is_shown_, is_dirty_ = false;
+  double part_ = 0;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+// ---- Output files
+
+/// Files that a program writes. Each is written under another name beside its own and renamed when all are complete, so
+/// that a failure leaves none of them behind.
+class Output_files
+{
+public:
+  Output_files() = default;
+  Output_files(const Output_files&) = delete;
+  Output_files& operator=(const Output_files&) = delete;
+  ~Output_files() { discard(); }
+
+  /// Says before the work begins that a file will be written.
+  /// \throws Error if that can't be, or if it has been announced before.
+  void announce(const std::string& filename)
+  {
+    for (const std::string& other : announced_)
+      if (std::filesystem::path(other).lexically_normal() == std::filesystem::path(filename).lexically_normal())
+        throw Error(filename + ": two outputs have this name");
+    if (std::filesystem::is_directory(filename)) throw Error(filename + ": is a directory");
+    std::filesystem::remove(reserve(filename));
+    announced_.push_back(filename);
+  }
+
+  /// Calls `write(name)` with the name to write to.
+  /// \throws Error if that fails.
+  template <class Write>
+  void add(const std::string& filename, const Write& write)
+  {
+    const std::string temporary = reserve(filename);
+    written_.emplace_back(temporary, filename);
+    try {
+      write(temporary);
+    } catch (const std::exception& error) {
+      std::string what = error.what();
+      const std::size_t place = what.find(temporary);
+      throw Error(place == std::string::npos ? filename + ": " + what
+                                             : what.replace(place, temporary.size(), filename));
+    }
+  }
+
+  /// Gives all files their names.
+  void commit()
+  {
+    for (const auto& [temporary, filename] : written_) std::filesystem::rename(temporary, filename);
+    written_.clear();
+  }
+
+private:
+  /// Creates an empty file in the same folder and with the same extension: writers go by that.
+  static std::string reserve(const std::string& filename)
+  {
+    const std::filesystem::path path(filename);
+    constexpr int most_tries = 1000;
+    for (int i = 0; i < most_tries; ++i) {
+      std::filesystem::path name = path;
+      name.replace_filename("." + path.stem().string() + "." + std::to_string(i) + path.extension().string());
+      if (std::filesystem::exists(name)) continue;
+      if (std::FILE* file = std::fopen(name.string().c_str(), "wx")) { // x: must not exist
+        std::fclose(file);
+        return name.string();
+      }
+    }
+    throw Error(filename + ": can't be opened for writing");
+  }
+
+  void discard()
+  {
+    std::error_code ignored;
+    for (const auto& file : written_) std::filesystem::remove(file.first, ignored);
+  }
+
+  std::vector<std::string> announced_;
+  std::vector<std::pair<std::string, std::string>> written_;
+};
+
+} // namespace command_line
+
+#endif // WEFT_EXAMPLES_COMMAND_LINE_H

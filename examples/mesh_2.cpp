@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The command-line program for planar meshes: reads a planar straight line graph, meshes what it encloses, writes the
+// mesh, pictures and figures. `mesh_2 --help` says how to call it.
+
+#include "cgal_refinement.h"
+#include "command_line.h"
+
+#include <weft/IO/read_pslg.h>
+#include <weft/IO/report_json.h>
+#include <weft/IO/write_mesh_2.h>
+#include <weft/make_mesh_2.h>
+#include <weft/planar/Bounded_voronoi_diagram_2.h>
+#include <weft/planar/insert_pslg.h>
+#include <weft/planar/quality_2.h>
+#include <weft/sizing/Lfs_sizing_2.h>
+#include <weft/version.h>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using K = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Cdt = weft::Mesh_triangulation_2<K>;
+using Pslg = weft::Pslg_2<K>;
+using Tags = weft::Mesh_tags_2<K>;
+using command_line::Error;
+
+/// Exit statuses.
+enum Status
+{
+  complete = 0,
+  refused = 1,
+  stopped_early = 2
+};
+
+// ---- What is asked for
+
+const std::string usage =
+    "usage: mesh_2 INPUT (--size S | --lfs K) [--min-size S] [--min-angle DEG] [--output FILE]...\n"
+    "              [--voronoi FILE.svg] [--histogram FILE.svg] [--report FILE.json] [--seed N] [--threads N]\n"
+    "              [--time-limit SECONDS] [--max-vertices N] [--split-crossings] [--quiet]\n";
+
+const std::vector<command_line::Option> known_options = {
+    {"--size", "S", "largest edge length, in the input's units"},
+    {"--lfs", "K", "edge lengths from the local feature size of the input, growing by at most K\nper unit of distance"},
+    {"--min-size", "S", "smallest edge length that --lfs asks for"},
+    {"--min-angle", "DEG", "smallest angle to refine for, up to 40 degrees, where the input allows it"},
+    {"--output", "FILE",
+     "the mesh; may be given several times. The extension is the format: .vtu (VTK),\n.mesh (Medit), "
+     ".msh (Gmsh), .off, or .svg, a picture coloured by quality",
+     true},
+    {"--voronoi", "FILE.svg", "a picture of the bounded Voronoi diagram of the mesh"},
+    {"--histogram", "FILE.svg",
+     "the angles of the mesh beside those of a mesh of the same sizes by CGAL's\nDelaunay "
+     "refinement, which is made for that"},
+    {"--report", "FILE.json", "counts, quality, what holds and what doesn't, time per stage"},
+    {"--seed", "N", "start of every random choice"},
+    {"--threads", "N", "threads to use; the mesh is the same for any number"},
+    {"--time-limit", "SECONDS", "stop early after this time"},
+    {"--max-vertices", "N", "stop early at this number of vertices"},
+    {"--split-crossings", "", "split segments that cross or overlap, instead of refusing them"},
+    {"--quiet", "", "no progress and no report; errors are still said"},
+    {"--help", "", "print this and exit"},
+    {"--version", "", "print the version and exit"}};
+
+std::string help()
+{
+  return usage +
+         "\nMeshes the domain that a planar straight line graph encloses with large, well-shaped triangles. INPUT is a "
+         ".poly or\n.node file of Triangle, an .edg file of CGAL, or an .obj file with lines. If a .poly has holes "
+         "they bound the\ndomain; else a region belongs to it when an odd number of outlines surrounds it.\n\n" +
+         command_line::describe(known_options) +
+         "\nExit status: 0 if the mesh meets all criteria; 1 for bad usage or bad input, when no file is written; 2 if "
+         "the run\nstopped early, by a limit or by Ctrl-C, when the valid mesh so far is written.\n";
+}
+
+struct Request
+{
+  std::string input;
+  std::string size_text; ///< "size 0.1" or "lfs 0.5", for titles
+  double size = 0;       ///< 0: by lfs
+  double lfs = 0, min_size = 0;
+  std::vector<std::string> outputs;
+  std::string voronoi, histogram, report;
+  bool split_crossings = false, quiet = false;
+  weft::Mesh_options_2 options;
+};
+
+void read_sizes(const command_line::Arguments& arguments, Request& request)
+{
+  request.size = arguments.positive("--size").value_or(0);
+  request.lfs = arguments.positive("--lfs").value_or(0);
+  request.min_size = arguments.positive("--min-size").value_or(0);
+  if (request.size > 0 && request.lfs > 0) throw Error("--size and --lfs exclude each other");
+  if (request.size == 0 && request.lfs == 0) throw Error("either --size or --lfs is needed");
+  if (request.min_size > 0 && request.lfs == 0) throw Error("--min-size goes with --lfs only");
+  request.size_text = request.lfs > 0 ? "lfs " + arguments.value("--lfs") : "size " + arguments.value("--size");
+}
+
+void read_options(const command_line::Arguments& arguments, Request& request)
+{
+  auto& options = request.options;
+  options.min_angle = arguments.positive("--min-angle").value_or(0);
+  if (options.min_angle > 40) throw Error("--min-angle: more than 40 degrees can't be promised");
+  options.time_limit = arguments.positive("--time-limit").value_or(std::numeric_limits<double>::infinity());
+  options.seed = arguments.integer<unsigned>("--seed", 0, std::numeric_limits<unsigned>::max()).value_or(0);
+  options.threads = arguments.integer<int>("--threads", 1, 1024).value_or(1);
+  constexpr std::size_t most_vertices = 1000000000;
+  options.max_vertices =
+      arguments.integer<std::size_t>("--max-vertices", 1, most_vertices).value_or(options.max_vertices);
+  options.check();
+}
+
+void read_filenames(const command_line::Arguments& arguments, Request& request)
+{
+  if (arguments.operands().empty()) throw Error("no input file; mesh_2 --help shows the usage");
+  if (arguments.operands().size() > 1) throw Error("more than one input file: '" + arguments.operands()[1] + "'");
+  request.input = arguments.operands().front();
+  request.outputs = arguments.values("--output");
+  for (const std::string& filename : request.outputs)
+    if (!weft::IO::is_mesh_filename(filename))
+      throw Error("--output: '" + filename + "' should end in .vtu, .mesh, .msh, .off or .svg");
+  const auto filename = [&arguments](const std::string& option, const std::string& extension) {
+    const std::string name = arguments.value(option);
+    if (!name.empty() && !command_line::has_extension(name, extension))
+      throw Error(option + ": '" + name + "' should end in " + extension);
+    return name;
+  };
+  request.voronoi = filename("--voronoi", ".svg");
+  request.histogram = filename("--histogram", ".svg");
+  request.report = filename("--report", ".json");
+}
+
+Request read_request(const command_line::Arguments& arguments)
+{
+  Request request;
+  read_filenames(arguments, request);
+  read_sizes(arguments, request);
+  read_options(arguments, request);
+  request.split_crossings = arguments.has("--split-crossings");
+  request.quiet = arguments.has("--quiet");
+  return request;
+}
+
+// ---- Input
+
+/// Fills the triangulation and marks the domain.
+Tags read_domain(const Request& request, Cdt& cdt)
+{
+  const Pslg pslg = weft::IO::read_pslg<K>(request.input);
+  try {
+    const auto crossings = request.split_crossings ? weft::Crossings::split : weft::Crossings::refuse;
+    Tags tags = weft::insert_pslg(cdt, pslg, {crossings}).tags;
+    weft::mark_domain(cdt, pslg);
+    return tags;
+  } catch (const weft::Domain_error& error) {
+    // Contacts between segments are the only fault that names two of them.
+    const bool may_be_split = !request.split_crossings && error.elements().size() == 2;
+    throw Error(request.input + ": " + error.what() + (may_be_split ? "; --split-crossings splits them" : ""));
+  }
+}
+
+/// The graph as the triangulation has it: segments meet at their ends only, as the local feature size wants it.
+Pslg graph_of(const Cdt& cdt)
+{
+  Pslg graph;
+  std::map<K::Point_2, std::size_t> number;
+  for (const auto vertex : cdt.finite_vertex_handles()) {
+    number.emplace(vertex->point(), graph.points.size());
+    graph.points.push_back(vertex->point());
+  }
+  for (auto edge = cdt.constrained_edges_begin(); edge != cdt.constrained_edges_end(); ++edge)
+    graph.segments.push_back({number.at(edge->first->vertex(Cdt::ccw(edge->second))->point()),
+                              number.at(edge->first->vertex(Cdt::cw(edge->second))->point())});
+  return graph;
+}
+
+// ---- Progress
+
+/// Maps a run, whose length nobody knows beforehand, to a bar: relaxation approaches its end step by step, refinement
+/// and polishing are as far as bad elements have become fewer.
+class Meshing_progress
+{
+public:
+  explicit Meshing_progress(bool wanted) : bar_(wanted) {}
+
+  bool operator()(const weft::Progress& progress)
+  {
+    std::string text = std::string(name(progress.stage)) + ", " + std::to_string(progress.vertices) + " vertices";
+    if (progress.bad > 0) text += ", " + std::to_string(progress.bad) + " bad";
+    bar_.show(part(progress), text);
+    return !command_line::Interruption::wished();
+  }
+
+  command_line::Progress_bar& bar() { return bar_; }
+
+private:
+  double part(const weft::Progress& progress)
+  {
+    constexpr double relaxation_begins = 0.1, refinement_begins = 0.5;
+    switch (progress.stage) {
+    case weft::Stage::constraints:
+    case weft::Stage::seeding:
+      return 0.5 * relaxation_begins;
+    case weft::Stage::relaxation:
+      unrelaxed_ *= 0.9;
+      return refinement_begins - (refinement_begins - relaxation_begins) * unrelaxed_;
+    default:
+      most_bad_ = std::max(most_bad_, progress.bad);
+      return 1 - (1 - refinement_begins) * std::log1p(progress.bad) / std::log1p(std::max<std::size_t>(most_bad_, 1));
+    }
+  }
+
+  command_line::Progress_bar bar_;
+  double unrelaxed_ = 1;
+  std::size_t most_bad_ = 0;
+};
+
+// ---- Output
+
+/// A polygon without repeated corners, as there are where vertices are cocircular.
+std::vector<K::Point_2> without_repetitions(std::vector<K::Point_2> polygon)
+{
+  polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+  while (polygon.size() > 1 && polygon.back() == polygon.front()) polygon.pop_back();
+  return polygon;
+}
+
+void draw_voronoi(const std::string& filename, const Cdt& cdt, const std::string& title)
+{
+  const weft::Bounded_voronoi_diagram_2<Cdt> diagram(cdt);
+  std::vector<std::vector<K::Point_2>> cells;
+  std::vector<K::Point_2> sites;
+  for (const auto& cell : diagram.cells()) {
+    sites.push_back(cell.site->point());
+    for (const auto& polygon : cell.polygons) cells.push_back(without_repetitions(polygon));
+  }
+  std::vector<std::array<K::Point_2, 2>> walls;
+  for (auto edge = cdt.constrained_edges_begin(); edge != cdt.constrained_edges_end(); ++edge)
+    if (edge->first->is_in_domain() || edge->first->neighbor(edge->second)->is_in_domain())
+      walls.push_back(
+          {edge->first->vertex(Cdt::ccw(edge->second))->point(), edge->first->vertex(Cdt::cw(edge->second))->point()});
+  weft::IO::write_voronoi_svg(filename, cells, sites, walls, title);
+}
+
+/// Angles of the domain meshed by CGAL; none if that was interrupted or took longer than the time limit.
+template <class Sizing>
+weft::Angle_histogram reference_angles(const Request& request, Cdt input, const Sizing& sizing,
+                                       std::size_t likely_vertices, command_line::Progress_bar& bar)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const bool done = refine_by_cgal(input, sizing, [&](std::size_t vertices) {
+    bar.show(static_cast<double>(vertices) / static_cast<double>(likely_vertices),
+             "CGAL's mesh for comparison, " + std::to_string(vertices) + " vertices");
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    return !command_line::Interruption::wished() && elapsed.count() < request.options.time_limit;
+  });
+  const std::string name = "CGAL's Delaunay refinement";
+  return done ? weft::measure_quality_2(input).histogram<weft::Angle_histogram>(name) : weft::Angle_histogram(name);
+}
+
+/// What keeps the mesh from what was asked for, as one line; empty if nothing does.
+std::string what_is_missing(const weft::Mesh_report_2& report, double min_angle)
+{
+  if (report.ok()) return {};
+  std::string text = report.stop_reason == weft::Stop_reason::criteria_met
+                         ? std::string("not all criteria hold")
+                         : std::string("stopped early, ") + name(report.stop_reason);
+  const auto count = [](std::size_t n, const char* one, const char* many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+  };
+  if (report.oversized > 0) text += ": " + count(report.oversized, "element is", "elements are") + " too large";
+  if (report.below_min_angle > 0)
+    text += (report.oversized > 0 ? ", " : ": ") + count(report.below_min_angle, "triangle has", "triangles have") +
+            " an angle below " + weft::internal::one_decimal(min_angle) + " degrees";
+  if (report.oversized == 0 && report.below_min_angle == 0) text += ": sizes hold, but shapes could be better";
+  return text;
+}
+
+// ---- The run
+
+/// Meshes, writes all files and tells how it went.
+template <class Sizing>
+Status mesh(const Request& request, Cdt& cdt, const Tags& tags, const Sizing& sizing, command_line::Output_files& files)
+{
+  const Cdt input = request.histogram.empty() ? Cdt() : cdt;
+  Meshing_progress progress(!request.quiet);
+  weft::Mesh_options_2 options = request.options;
+  options.visitor = std::ref(progress);
+  const weft::Mesh_report_2 report = weft::make_mesh_2(cdt, sizing, options);
+  std::string missing = what_is_missing(report, options.min_angle);
+  progress.bar().clear();
+
+  const weft::Quality_2 quality = weft::measure_quality_2(cdt);
+  const std::string title = std::filesystem::path(request.input).filename().string() + ", " + request.size_text;
+  for (const std::string& filename : request.outputs)
+    files.add(filename, [&](const std::string& name) { weft::IO::write_mesh_2(name, cdt, tags); });
+  if (!request.voronoi.empty())
+    files.add(request.voronoi, [&](const std::string& name) { draw_voronoi(name, cdt, title); });
+  if (!request.report.empty())
+    files.add(request.report, [&](const std::string& name) {
+      weft::IO::write_report_json(name, report, quality, weft::measure_sizing_2(cdt, sizing));
+    });
+  if (!request.histogram.empty()) {
+    const auto angles = quality.histogram<weft::Angle_histogram>("weft");
+    weft::Angle_histogram reference;
+    if (missing.empty()) {
+      reference = reference_angles(request, input, sizing, report.vertices * 3 / 2, progress.bar());
+      if (reference.total() == 0) missing = "stopped early: the mesh is complete, the histogram lacks CGAL's";
+    }
+    files.add(request.histogram, [&](const std::string& name) {
+      if (reference.total() > 0)
+        weft::IO::write_angle_histogram_svg(name, angles, reference, "Angles: " + title);
+      else
+        weft::IO::write_angle_histogram_svg(name, angles, "Angles: " + title);
+    });
+  }
+  files.commit();
+  progress.bar().clear();
+  if (!request.quiet) std::cout << report << std::flush;
+  if (!missing.empty()) command_line::complain("mesh_2", missing);
+  return missing.empty() ? complete : stopped_early;
+}
+
+Status run(const Request& request)
+{
+  command_line::Output_files files;
+  Cdt cdt;
+  const Tags tags = read_domain(request, cdt);
+  for (const std::string& filename : request.outputs) files.announce(filename);
+  for (const std::string& filename : {request.voronoi, request.histogram, request.report})
+    if (!filename.empty()) files.announce(filename);
+  const command_line::Interruption interruption;
+  if (request.lfs > 0)
+    return mesh(request, cdt, tags, weft::Lfs_sizing_2<K>(graph_of(cdt), request.lfs, request.min_size), files);
+  return mesh(request, cdt, tags, weft::Uniform_sizing<>(request.size), files);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  try {
+    const command_line::Arguments arguments(known_options, argc, argv);
+    if (arguments.has("--help") || arguments.has("--version")) {
+      std::cout << (arguments.has("--help") ? help() : std::string("mesh_2 (weft) " WEFT_VERSION "\n"));
+      return complete;
+    }
+    return run(read_request(arguments));
+  } catch (const std::bad_alloc&) {
+    command_line::complain("mesh_2", "out of memory");
+  } catch (const std::exception& error) {
+    command_line::complain("mesh_2", error.what());
+  }
+  return refused;
+}

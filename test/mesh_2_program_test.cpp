@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Properties of the program mesh_2 as a user sees it: exit statuses, what it says and where, and which files are there
+// afterwards. The program is run for each of them in an empty folder.
+
+#include <weft/version.h>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#ifndef _WIN32
+#include <sys/wait.h>
+#endif
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+const std::string unit_square = "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/// What a run left.
+struct Outcome
+{
+  int status;
+  std::string out, err;
+};
+
+/// An empty folder that goes with the test case.
+class Folder
+{
+public:
+  explicit Folder(const std::string& name) : path_(fs::current_path() / ("mesh_2_program_test_" + name))
+  {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~Folder()
+  {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+  std::string read(const std::string& name) const { return content(path_ / name); }
+
+  /// Names of all files, hidden ones included.
+  Names files() const
+  {
+    Names names;
+    for (const auto& entry : fs::directory_iterator(path_)) names.insert(entry.path().filename().string());
+    return names;
+  }
+
+  /// Runs the program here. \param before goes before the program on the command line.
+  Outcome run(const std::string& arguments, const std::string& before = "") const
+  {
+    const std::string out = path_.string() + ".out", err = path_.string() + ".err";
+    const std::string command = "cd '" + path_.string() + "' && " + before + " '" WEFT_MESH_2 "' " + arguments + " >'" +
+                                out + "' 2>'" + err + "' </dev/null";
+    int status = std::system(command.c_str());
+#ifndef _WIN32
+    status = WIFEXITED(status) ? WEXITSTATUS(status) : -1; // -1: killed by a signal
+#endif
+    const Outcome outcome{status, content(out), content(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return outcome;
+  }
+
+private:
+  fs::path path_;
+};
+
+/// Whether an error is one line that begins with the program's name.
+bool is_one_line(const std::string& err)
+{
+  return err.rfind("mesh_2: ", 0) == 0 && std::count(err.begin(), err.end(), '\n') == 1 && err.back() == '\n';
+}
+
+/// The number after `"name": ` in a JSON text.
+double number(const std::string& json, const std::string& name)
+{
+  const std::string key = "\"" + name + "\": ";
+  const std::size_t place = json.find(key);
+  REQUIRE(place != std::string::npos);
+  return std::stod(json.substr(place + key.size()));
+}
+
+/// Number of triangles in an .off file.
+std::size_t triangles(const std::string& off)
+{
+  std::istringstream in(off);
+  std::string magic;
+  std::size_t vertices = 0, faces = 0;
+  in >> magic >> vertices >> faces;
+  CHECK(magic == "OFF");
+  return faces;
+}
+
+const std::string data = WEFT_DATA_DIR;
+
+} // namespace
+
+TEST_CASE("a complete mesh gives status 0 and every file that was asked for, and says nothing on stderr")
+{
+  const Folder folder("complete");
+  folder.write("square.poly", unit_square);
+  const Outcome outcome =
+      folder.run("square.poly --size 0.2 --output m.off --output m.vtu --output m.mesh --output m.msh --output m.svg "
+                 "--voronoi v.svg --histogram h.svg --report r.json");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err == "");
+  CHECK(contains(outcome.out, "all criteria met"));
+  CHECK(folder.files() ==
+        Names{"square.poly", "m.off", "m.vtu", "m.mesh", "m.msh", "m.svg", "v.svg", "h.svg", "r.json"});
+  CHECK(triangles(folder.read("m.off")) > 50);
+  CHECK(contains(folder.read("m.vtu"), "</VTKFile>"));
+  CHECK(contains(folder.read("m.mesh"), "\nEnd\n"));
+  CHECK(contains(folder.read("m.msh"), "$EndElements"));
+  for (const char* picture : {"m.svg", "v.svg", "h.svg"}) CHECK(contains(folder.read(picture), "</svg>"));
+  CHECK(contains(folder.read("h.svg"), "CGAL"));
+  const std::string report = folder.read("r.json");
+  CHECK(contains(report, "\"ok\": true"));
+  CHECK(number(report, "area") == Approx(1));
+  CHECK(number(report, "largest_ratio") <= 1);
+}
+
+TEST_CASE("a quiet run prints nothing")
+{
+  const Folder folder("quiet");
+  folder.write("square.poly", unit_square);
+  const Outcome outcome = folder.run("--quiet square.poly --size=0.3 --output=m.off");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out == "");
+  CHECK(outcome.err == "");
+  CHECK(folder.files() == Names{"square.poly", "m.off"});
+}
+
+TEST_CASE("help and version go to stdout with status 0")
+{
+  const Folder folder("help");
+  const Outcome help = folder.run("--help"), version = folder.run("--version");
+  CHECK(help.status == 0);
+  CHECK(help.err == "");
+  CHECK(contains(help.out, "usage: mesh_2 INPUT (--size S | --lfs K) [--min-size S] [--min-angle DEG]"));
+  for (const char* option : {"--output", "--voronoi", "--histogram", "--report", "--seed", "--threads", "--time-limit",
+                             "--max-vertices", "--split-crossings", "--quiet"})
+    CHECK(contains(help.out, std::string("\n  ") + option));
+  CHECK(version.status == 0);
+  CHECK(contains(version.out, WEFT_VERSION));
+}
+
+TEST_CASE("bad usage gives status 1, one line that says what is wrong, and no output file")
+{
+  struct Case
+  {
+    const char *arguments, *said;
+  };
+  const Case cases[] = {{"", "no input file"},
+                        {"--size 0.1", "no input file"},
+                        {"square.poly", "either --size or --lfs"},
+                        {"square.poly square.poly --size 1", "more than one input file"},
+                        {"square.poly --size 0.1 --lfs 0.1", "exclude each other"},
+                        {"square.poly --size 0.1 --size 0.2", "--size is given twice"},
+                        {"square.poly --size 0.1 --min-size 0.1", "--min-size goes with --lfs"},
+                        {"square.poly --size 0.1 --colour red", "unknown option '--colour'"},
+                        {"square.poly --size 0.1 -q", "unknown option '-q'"},
+                        {"square.poly --size", "--size needs a value"},
+                        {"square.poly --size --quiet", "--size needs a value"},
+                        {"square.poly --size=", "--size needs a value"},
+                        {"square.poly --size 0.1 --quiet=yes", "--quiet takes no value"},
+                        {"square.poly --size 0", "--size: '0' is not a positive number"},
+                        {"square.poly --size -1", "--size: '-1' is not a positive number"},
+                        {"square.poly --size nan", "'nan' is not a positive number"},
+                        {"square.poly --size inf", "'inf' is not a positive number"},
+                        {"square.poly --size 1e999", "'1e999' is not a positive number"},
+                        {"square.poly --size 0.1x", "'0.1x' is not a positive number"},
+                        {"square.poly --size 0,1", "'0,1' is not a positive number"},
+                        {"square.poly --size ' 0.1'", "is not a positive number"},
+                        {"square.poly --size ''", "--size needs a value"},
+                        {"square.poly --lfs 0", "--lfs: '0' is not a positive number"},
+                        {"square.poly --lfs 0.5 --min-size -2", "--min-size: '-2' is not a positive number"},
+                        {"square.poly --size 0.1 --min-angle 41", "--min-angle"},
+                        {"square.poly --size 0.1 --min-angle x", "--min-angle: 'x' is not a positive number"},
+                        {"square.poly --size 0.1 --seed -1", "--seed: '-1' is not a whole number"},
+                        {"square.poly --size 0.1 --seed 1.5", "--seed: '1.5' is not a whole number"},
+                        {"square.poly --size 0.1 --threads 0", "--threads: '0' is not a whole number from 1"},
+                        {"square.poly --size 0.1 --time-limit 0", "--time-limit: '0' is not a positive number"},
+                        {"square.poly --size 0.1 --max-vertices 0", "--max-vertices: '0' is not a whole number"},
+                        {"square.poly --size 0.1 --output n.stl", "--output: 'n.stl' should end in .vtu"},
+                        {"square.poly --size 0.1 --voronoi v.png", "--voronoi: 'v.png' should end in .svg"},
+                        {"square.poly --size 0.1 --histogram h", "--histogram: 'h' should end in .svg"},
+                        {"square.poly --size 0.1 --report r.txt", "--report: 'r.txt' should end in .json"},
+                        {"square.poly --size 0.1 --output m.svg --voronoi ./m.svg", "two outputs have this name"},
+                        {"square.poly --size 0.1 --output missing/n.vtu", "missing/n.vtu: can't be opened for writing"},
+                        {"square.poly --size 0.1 --output folder.vtu", "folder.vtu: is a directory"}};
+  const Folder folder("usage");
+  folder.write("square.poly", unit_square);
+  fs::create_directory(fs::current_path() / "mesh_2_program_test_usage" / "folder.vtu");
+  const Names before = folder.files();
+  for (const Case& c : cases) {
+    const Outcome outcome = folder.run(std::string("--output m.off ") + c.arguments);
+    INFO(c.arguments << "\n" << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.out == "");
+    CHECK(is_one_line(outcome.err));
+    CHECK(contains(outcome.err, c.said));
+    CHECK(folder.files() == before);
+  }
+}
+
+TEST_CASE("bad input gives status 1, one line that names the file, and no output file")
+{
+  const std::string cross = "4 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n4 0\n0 0 1\n1 1 3\n2 3 2\n3 2 0\n0\n";
+  const std::vector<std::pair<std::string, std::string>> inputs = {
+      {"empty.poly", ""},
+      {"words.poly", "not a mesh\n"},
+      {"binary.poly", std::string("\x7f\x45\x4c\x46\0\1\2\3", 8)},
+      {"cross.poly", cross},
+      {"open.poly", "3 2 0 0\n0 0 0\n1 1 0\n2 1 1\n2 0\n0 0 1\n1 1 2\n"},
+      {"nan.poly", "3 2 0 0\n0 0 nan\n1 1 0\n2 1 1\n3 0\n0 0 1\n1 1 2\n2 2 0\n"},
+      {"line.edg", "2\n0 0 1 1\n1 1 2 2\n"},
+      {"point.node", "1 2 0 0\n0 0 0\n"},
+      {"all_hole.poly", "3 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0\n0 0 1\n1 1 2\n2 2 0\n1\n0 0.7 0.2\n"},
+      {"square.stl", unit_square}};
+  const Folder folder("input");
+  folder.write("m.off", "an older file\n");
+  for (const auto& [name, text] : inputs) folder.write(name, text);
+  const Names before = folder.files();
+  const auto check = [&](const std::string& name) {
+    const Outcome outcome = folder.run(name + " --size 0.1 --output m.off --output m.vtu --histogram h.svg");
+    INFO(name << "\n" << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.out == "");
+    CHECK(is_one_line(outcome.err));
+    CHECK(contains(outcome.err, name));
+    CHECK(folder.files() == before);
+    CHECK(folder.read("m.off") == "an older file\n");
+  };
+  for (const auto& input : inputs) check(input.first);
+  check("no_such_file.poly");
+
+  const Outcome crossing = folder.run("cross.poly --size 0.1");
+  CHECK(contains(crossing.err, "--split-crossings"));
+  CHECK(folder.run("cross.poly --size 0.1 --split-crossings --output s.off").status == 0);
+  CHECK(triangles(folder.read("s.off")) > 50);
+}
+
+TEST_CASE("a file that is cut anywhere is refused, never meshed in part")
+{
+  const Folder folder("cut");
+  const std::string whole = content(data + "/plate.poly");
+  REQUIRE(whole.size() > 1000);
+  // The last lines are regions, which a file may lack: cuts well before them only.
+  const std::size_t most = whole.size() - 150;
+  for (std::size_t length = 1; length < most; length += most / 12) {
+    folder.write("cut.poly", whole.substr(0, length));
+    const Outcome outcome = folder.run("cut.poly --size 10 --output m.off");
+    INFO(length << "\n" << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(is_one_line(outcome.err));
+    CHECK(folder.files() == Names{"cut.poly"});
+  }
+}
+
+TEST_CASE("a run that is stopped early gives status 2, the mesh so far, and one line that says why")
+{
+  const Folder folder("early");
+  folder.write("square.poly", unit_square);
+  struct Case
+  {
+    const char *arguments, *said;
+  };
+  for (const Case& c :
+       {Case{"--size 0.01 --time-limit 1e-6", "time limit"}, Case{"--size 0.01 --max-vertices 1", "vertex budget"},
+        Case{"--size 0.01 --max-vertices 500", "vertex budget"},
+        Case{"--size 1e-200 --max-vertices 2000", "vertex budget"}}) {
+    const Outcome outcome = folder.run(std::string("square.poly --quiet --output m.off --histogram h.svg "
+                                                   "--voronoi v.svg --report r.json ") +
+                                           c.arguments,
+                                       "timeout --signal=KILL 60");
+    INFO(c.arguments << "\n" << outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out == "");
+    CHECK(is_one_line(outcome.err));
+    CHECK(contains(outcome.err, c.said));
+    CHECK(contains(outcome.err, "too large"));
+    CHECK(folder.files() == Names{"square.poly", "m.off", "h.svg", "v.svg", "r.json"});
+    CHECK(triangles(folder.read("m.off")) >= 2);
+    const std::string report = folder.read("r.json");
+    CHECK(contains(report, "\"ok\": false"));
+    CHECK(number(report, "area") == Approx(1));
+    CHECK(number(report, "vertices") <= 2100);
+  }
+}
+
+#ifndef _WIN32
+TEST_CASE("Ctrl-C ends a run with status 2 and the mesh so far")
+{
+  const Folder folder("interrupt");
+  folder.write("square.poly", unit_square);
+  for (const char* signal : {"INT", "TERM"}) {
+    const Outcome outcome = folder.run("square.poly --size 0.001 --output m.off",
+                                       std::string("timeout --preserve-status --signal=") + signal + " 1");
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(is_one_line(outcome.err));
+    CHECK(contains(outcome.err, "cancelled"));
+    CHECK(folder.files() == Names{"square.poly", "m.off"});
+    CHECK(triangles(folder.read("m.off")) >= 2);
+    fs::remove(fs::current_path() / "mesh_2_program_test_interrupt" / "m.off");
+  }
+}
+#endif
+
+TEST_CASE("holes bound the domain where the file has some, else nesting parity does")
+{
+  const std::string squares = "12 2 0 0\n"
+                              "0 0 0\n1 6 0\n2 6 6\n3 0 6\n4 1 1\n5 5 1\n6 5 5\n7 1 5\n8 2 2\n9 4 2\n10 4 4\n11 2 4\n"
+                              "12 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n4 4 5\n5 5 6\n6 6 7\n7 7 4\n"
+                              "8 8 9\n9 9 10\n10 10 11\n11 11 8\n";
+  const Folder folder("nesting");
+  folder.write("parity.poly", squares + "0\n");
+  folder.write("hole.poly", squares + "1\n0 3 3\n");
+  CHECK(folder.run("parity.poly --size 1 --report parity.json").status == 0);
+  CHECK(folder.run("hole.poly --size 1 --report hole.json").status == 0);
+  CHECK(number(folder.read("parity.json"), "area") == Approx(36 - 16 + 4));
+  CHECK(number(folder.read("hole.json"), "area") == Approx(36 - 4));
+}
+
+TEST_CASE("sizes from the local feature size grade a mesh, and a smallest size bounds them")
+{
+  const Folder folder("lfs");
+  CHECK(folder.run("'" + data + "/plate.poly' --lfs 0.6 --min-size 2 --report coarse.json").status == 0);
+  CHECK(folder.run("'" + data + "/plate.poly' --lfs 0.6 --min-size 1 --report fine.json").status == 0);
+  CHECK(number(folder.read("coarse.json"), "triangles") < number(folder.read("fine.json"), "triangles"));
+}
+
+TEST_CASE("the same input gives the same bytes, for any number of threads")
+{
+  const Folder folder("same");
+  const std::string arguments = "'" + data + "/gulf.poly' --size 3 --seed 7 --quiet --output ";
+  CHECK(folder.run(arguments + "a.off").status == 0);
+  CHECK(folder.run(arguments + "b.off").status == 0);
+  CHECK(folder.run(arguments + "c.off --threads 2").status == 0);
+  CHECK(folder.read("a.off") == folder.read("b.off"));
+  CHECK(folder.read("a.off") == folder.read("c.off"));
+}
+
+TEST_CASE("the data of the project can be meshed")
+{
+  const Folder folder("data");
+  for (const char* arguments : {"gulf.poly' --size 3", "plate.poly' --size 8", "airfoil.poly' --size 0.5"}) {
+    const Outcome outcome = folder.run("'" + data + "/" + arguments + " --report r.json");
+    INFO(arguments << "\n" << outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK(number(folder.read("r.json"), "smallest_angle") > 25);
+  }
+}
