@@ -85,7 +85,8 @@ private:
 
   // Costs from which triangles are polished (38 degrees) and mended by inserting or removing a vertex (37 degrees).
   static constexpr double polish_cost = 0.5, pliant_cost = 1;
-  static constexpr int most_pliant_passes = 6, most_rounds = 8, most_fruitless_batches = 20;
+  static constexpr std::size_t least_insertions = 20;
+  static constexpr int most_pliant_passes = 6, most_rounds = 8, most_fruitless_batches = 60;
 
   template <class Function>
   void timed(Stage stage, const Function& function)
@@ -254,6 +255,8 @@ private:
   /// that held before doesn't hold afterwards.
   void interleave()
   {
+    const std::size_t n = mesh_.vertices().size();
+    pliant_.set_budget(least_insertions + n / 50, 20 * least_insertions + n / 2);
     bool relaxed = false;
     for (int round = 0; round < most_rounds; ++round) {
       refine_until_good();
@@ -279,11 +282,17 @@ private:
   {
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     int fruitless = 0; // batches since there have been so few
+    bool polished = false;
     for (;;) {
       bad_ = refiner_.find_bad();
       if (bad_ > 0 && options_.polish && refiner_.largest_ratio() < Batch_refiner_2<Mesh>::near_goal) {
         timed(Stage::polishing, [this] { polish_sizes(); });
         bad_ = refiner_.find_bad();
+      }
+      if (bad_ > 0 && refiner_.oversized() == 0 && options_.polish && !polished) { // a better angle costs no vertex
+        polished = true;
+        timed(Stage::polishing, [this] { polish(); });
+        continue;
       }
       if (bad_ == 0 || !go_on()) return;
       fruitless = bad_ < fewest ? 0 : fruitless + 1;

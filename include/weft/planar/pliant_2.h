@@ -33,6 +33,14 @@ public:
 
   Pliant_improver_2(Mesh& mesh, Polisher_2<Mesh>& polisher) : mesh_(mesh), polisher_(polisher) {}
 
+  /// Allows so many more insertions and trials. Without a budget, a shore of fractal detail takes half as many points again
+  /// as greedy refinement, for angles that nobody asked for.
+  void set_budget(std::size_t insertions, std::size_t trials)
+  {
+    insertions_left_ = insertions;
+    trials_left_ = trials;
+  }
+
   /// One pass over the triangles whose cost exceeds `bound`, worst first. The mesh is renumbered.
   /// \param go_on callable; false stops.
   /// \returns the number of insertions and removals that were kept.
@@ -46,7 +54,7 @@ public:
     std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     std::size_t kept = 0;
     for (const auto& [c, t] : worst) {
-      if (!go_on()) break;
+      if (trials_left_ == 0 || !go_on()) break;
       Face_handle f;
       if (find(t, f) && polisher_.cost(f) > bound && mend(t)) ++kept;
     }
@@ -86,8 +94,11 @@ private:
     Face_handle f;
     for (int i = 0; i < 3; ++i)
       if (find(t, f) && mesh_.vertices()[t[i]]->constraint() != fixed_vertex && try_removal(f, t[i])) return true;
-    for (int k = 0; k < 4; ++k)
-      if (find(t, f) && try_insertion(f, k)) return true;
+    for (int k = 0; k < 4 && insertions_left_ > 0; ++k)
+      if (find(t, f) && try_insertion(f, k)) {
+        --insertions_left_;
+        return true;
+      }
     return false;
   }
 
@@ -182,6 +193,7 @@ private:
   /// Polishes the vertices and returns the cost of the triangles around them.
   double settle(const std::vector<Vertex_handle>& vertices)
   {
+    if (trials_left_ > 0) --trials_left_;
     constexpr int most_rounds = 8;
     for (const Vertex_handle v : vertices) polisher_.give_hope(v);
     for (int round = 0; round < most_rounds; ++round) {
@@ -220,6 +232,7 @@ private:
 
   Mesh& mesh_;
   Polisher_2<Mesh>& polisher_;
+  std::size_t insertions_left_ = 0, trials_left_ = 0;
 };
 
 } // namespace weft

@@ -76,22 +76,16 @@ public:
   /// Triangles with angles below the bound.
   struct Sharp_triangles
   {
-    std::size_t mendable = 0; ///< with such an angle that isn't an input angle
-    std::size_t given = 0;    ///< with such an input angle
+    std::size_t mendable = 0; ///< that the input doesn't force
+    std::size_t given = 0;    ///< that it may, see `is_forced()`
   };
 
   Sharp_triangles count_sharp() const
   {
     Sharp_triangles result;
     if (max_cosine_ > 1) return result;
-    for (const Face_handle f : mesh_.faces()) {
-      bool given = false;
-      for (int i = 0; i < 3; ++i) given = given || (is_input_angle(f, i) && cosine(f, i) > max_cosine_);
-      if (given)
-        ++result.given;
-      else if (is_too_sharp(f))
-        ++result.mendable;
-    }
+    for (const Face_handle f : mesh_.faces())
+      if (is_sharp(f)) ++(is_forced(f) ? result.given : result.mendable);
     return result;
   }
 
@@ -108,12 +102,27 @@ public:
     return inserted;
   }
 
-  /// Whether the smallest angle of a face, its input angles apart, is below the bound.
-  bool is_too_sharp(Face_handle f) const
+  /// Whether a face has an angle below the bound that the input doesn't force on it.
+  bool is_too_sharp(Face_handle f) const { return is_sharp(f) && !is_forced(f); }
+
+  /// Whether a face has an angle below the bound.
+  bool is_sharp(Face_handle f) const
   {
-    for (int i = 0; i < 3; ++i)
-      if (!is_input_angle(f, i) && cosine(f, i) > max_cosine_) return true;
-    return false;
+    return cosine(f, 0) > max_cosine_ || cosine(f, 1) > max_cosine_ || cosine(f, 2) > max_cosine_;
+  }
+
+  /// Whether the input may force a sharp angle on a face: its shortest edge joins two constraints that meet at less
+  /// than 60 degrees. Refining such faces would never end (Miller, Pav and Walkington, "When and why Delaunay
+  /// refinement algorithms work", 2005).
+  bool is_forced(Face_handle f) const
+  {
+    int shortest = 0;
+    for (int i = 1; i < 3; ++i)
+      if (mesh_.squared_length(f, i) < mesh_.squared_length(f, shortest)) shortest = i;
+    const Vertex_handle a = f->vertex(Triangulation::ccw(shortest)), b = f->vertex(Triangulation::cw(shortest));
+    if (is_input_angle(f, shortest)) return true;
+    if (a->constraint() == free_vertex || b->constraint() == free_vertex) return false;
+    return meet_sharply(a, b);
   }
 
   /// Whether both edges of the face at corner i are constrained.
@@ -164,6 +173,36 @@ private:
     if (ratio <= 1) return;
     bad_.push_back({ratio, key(f), f, edge});
     ++oversized_;
+  }
+
+  /// Whether constraints through a and through b have a common end where they make less than 60 degrees.
+  bool meet_sharply(Vertex_handle a, Vertex_handle b) const
+  {
+    for (const int i : chains_at(a))
+      for (const int j : chains_at(b)) {
+        const auto &p = mesh_.chains()[i], &q = mesh_.chains()[j];
+        if (i == j) continue;
+        for (const auto& [corner, end] : {std::pair(p.source, p.target), std::pair(p.target, p.source)}) {
+          if (corner != q.source && corner != q.target) continue;
+          const auto u = end->point() - corner->point(),
+                     v = (corner == q.source ? q.target : q.source)->point() - corner->point();
+          if (CGAL::to_double(u * v) > 0.5 * std::sqrt(CGAL::to_double(u * u) * CGAL::to_double(v * v))) return true;
+        }
+      }
+    return false;
+  }
+
+  /// Chains through a vertex: its own, or those that end at it.
+  std::vector<int> chains_at(Vertex_handle v) const
+  {
+    if (v->constraint() >= 0) return {v->constraint()};
+    std::vector<int> result;
+    auto edge = mesh_.triangulation().incident_edges(v);
+    const auto done = edge;
+    do
+      if (mesh_.triangulation().is_constrained(*edge)) result.push_back(mesh_.chain_of(edge->first, edge->second));
+    while (++edge != done);
+    return result;
   }
 
   double cosine(Face_handle f, int i) const
