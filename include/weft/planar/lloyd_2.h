@@ -123,7 +123,7 @@ private:
                                        internal::squared_distance(p[2], p[0])});
     const std::array<double, 3> s{mesh_.target(f->vertex(0)), mesh_.target(f->vertex(1)), mesh_.target(f->vertex(2))};
     const double mean = (s[0] + s[1] + s[2]) / 3;
-    const double weight = feedback(longest / (mean * mean)) * planar_density(mean / unit_);
+    const double weight = feedback(longest / (mean * mean)) * graded_density(mean / unit_);
     const Blind* blind = f->id() >= 0 ? &blind_[f->id()] : nullptr;
     std::array<Cell, 3> result;
     for (int i = 0; i < 3; ++i) {
@@ -146,6 +146,14 @@ private:
     return result;
   }
 
+  /// With feedback the density needs to follow sizes less than the asymptotic size^-4 of `planar_density()`, which drains
+  /// the coarse side of steep gradients: a fractal shore of 2020 points then takes 185 batches and 4590 Steiner points,
+  /// with size^-3 none and 3007; 302 points of lakes take 725 against 646.
+  double graded_density(double size) const
+  {
+    return feedback_ == 0 ? planar_density(size) : 1 / (size * size * size);
+  }
+
   double feedback(double squared_ratio) const
   {
     if (feedback_ == 3) return squared_ratio * std::sqrt(squared_ratio);
@@ -163,7 +171,7 @@ private:
                   area;
     // Kites of obtuse triangles reach outside of the face, where the interpolation must not run wild.
     size = (std::min)((std::max)(size, (std::min)({s[0], s[1], s[2]})), (std::max)({s[0], s[1], s[2]}));
-    return planar_density(size / mean);
+    return graded_density(size / mean);
   }
 
   /// Adds the triangle between the vertex, at the origin, and a and b.
