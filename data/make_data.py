@@ -266,11 +266,61 @@ def airfoil():
     return graph
 
 
+# ---- gear.off: a spur gear with hubs
+
+
+class Surface:
+    """A surface of quadrilaterals that is written as an .off file."""
+
+    def __init__(self):
+        self.points, self.facets = [], []
+
+    def write(self, filename, title, digits):
+        with open(filename, "w", encoding="ascii", newline="\n") as out:
+            out.write("OFF\n# %s\n# Made by make_data.py, GPL-3.0-or-later.\n" % title)
+            out.write("%d %d 0\n" % (len(self.points), len(self.facets)))
+            out.writelines(" ".join("%.*f" % (digits, c + 0.0) for c in p) + "\n" for p in self.points)
+            out.writelines("%d %s\n" % (len(f), " ".join(map(str, f))) for f in self.facets)
+
+
+def gear():
+    """A spur gear of 14 teeth, 64 mm across and 12 mm wide, with a hub on both sides and a bore of 14 mm. Its web is
+    thinner than its rim and blends into hub and rim with fillets. Half-planes through the axis cut it in the same
+    profile but for the height of the teeth."""
+    teeth, root, tip = 14, 26.0, 32.0
+
+    # A tooth, as angles in parts of its pitch and heights: a flat root, a flank, a rounded tip, a flank.
+    flank = [(0.24 + 0.025 * t + 0.045 * t * t, t) for t in (0, 0.5, 1)]
+    tooth = [(0.0, 0.0), (0.12, 0.0)] + flank + [(0.5, 1.0)] + [(1 - a, h) for a, h in flank[::-1]] + [(0.88, 0.0)]
+    around = [((k + a) / teeth, root + (tip - root) * h) for k in range(teeth) for a, h in tooth]
+
+    # The profile from the middle of the bore over the upper side to the middle of the rim; None: the tooth's height.
+    def fillet(center, radius, start, end):
+        return arc(center, radius, start, end, 6)
+
+    upper = [(7, 0), (7, 9), (12, 9)] + fillet((15, 6), 3, 180, 270) + fillet((19.5, 5.5), 2.5, 270, 360) + \
+        [(22, 6), (None, 6), (None, 0)]
+    profile = upper + [(r, -z) for r, z in upper[-2:0:-1]]
+
+    surface = Surface()
+    n = len(profile)
+    for turn, height in around:
+        c, s = math.cos(2 * math.pi * turn), math.sin(2 * math.pi * turn)
+        surface.points += [((r or height) * c, (r or height) * s, z) for r, z in profile]
+    total = len(around) * n
+    for i in range(len(around)):
+        for j in range(n):
+            a, b = i * n + j, i * n + (j + 1) % n
+            surface.facets.append((a, (a + n) % total, (b + n) % total, b))
+    return surface
+
+
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
     gulf().write(os.path.join(folder, "gulf.poly"), "A gulf with islands; kilometres.", 3)
     plate().write(os.path.join(folder, "plate.poly"), "A mounting plate; millimetres.", 6)
     airfoil().write(os.path.join(folder, "airfoil.poly"), "A NACA 0012 section in a channel; chords.", 8)
+    gear().write(os.path.join(folder, "gear.off"), "A spur gear; millimetres.", 4)
 
 
 if __name__ == "__main__":

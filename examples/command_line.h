@@ -65,6 +65,24 @@ inline std::string describe(const std::vector<Option>& options)
   return text;
 }
 
+/// Whether the name of a file ends as wanted (".svg", lower case).
+inline bool has_extension(const std::string& filename, const std::string& wanted)
+{
+  std::string extension = std::filesystem::path(filename).extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension == wanted;
+}
+
+/// A length in units of the input, or in per cent of its extent.
+struct Length
+{
+  double value = 0;
+  bool is_relative = false;
+
+  double in(double extent) const { return is_relative ? value / 100 * extent : value; }
+};
+
 /// The arguments of a program, checked against the options that it knows. Values follow as the next argument or after
 /// an equals sign; after "--" everything is an operand.
 class Arguments
@@ -106,6 +124,41 @@ public:
     const auto number = parse<double>(value(name));
     if (!number || !std::isfinite(*number) || !(*number > 0)) refuse(name, "a positive number");
     return number;
+  }
+
+  /// A number in a range. \throws Error as above.
+  std::optional<double> number(const std::string& name, double least, double most) const
+  {
+    if (!has(name)) return {};
+    const auto number = parse<double>(value(name));
+    if (!number || !(*number >= least && *number <= most)) {
+      char range[80];
+      std::snprintf(range, sizeof range, "a number from %g to %g", least, most);
+      refuse(name, range);
+    }
+    return number;
+  }
+
+  /// A finite length, positive or, where that is allowed, 0; a trailing % makes it relative. \throws Error as above.
+  std::optional<Length> length(const std::string& name, bool may_be_zero = false) const
+  {
+    if (!has(name)) return {};
+    std::string text = value(name);
+    const bool is_relative = text.back() == '%';
+    if (is_relative) text.pop_back();
+    const auto number = parse<double>(text);
+    if (!number || !std::isfinite(*number) || !(*number > 0 || (may_be_zero && *number == 0)))
+      refuse(name, "a positive length, or one in % of the bounding box diagonal");
+    return Length{*number, is_relative};
+  }
+
+  /// The name of a file with the extension that it must have, or an empty string. \throws Error for other extensions.
+  std::string filename(const std::string& name, const std::string& extension) const
+  {
+    const std::string filename = value(name);
+    if (!filename.empty() && !has_extension(filename, extension))
+      throw Error(name + ": '" + filename + "' should end in " + extension);
+    return filename;
   }
 
   /// An integer in a range. \throws Error as above.
@@ -162,15 +215,6 @@ private:
   std::vector<std::string> operands_;
   std::map<std::string, std::vector<std::string>> values_;
 };
-
-/// Whether the name of a file ends as wanted (".svg", lower case).
-inline bool has_extension(const std::string& filename, const std::string& wanted)
-{
-  std::string extension = std::filesystem::path(filename).extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension == wanted;
-}
 
 /// Writes "PROGRAM: WHAT" to standard error, as one line whatever `what` contains.
 inline void complain(const std::string& program, std::string what)

@@ -5,6 +5,7 @@
 
 #include "cgal_refinement.h"
 #include "command_line.h"
+#include "meshing_progress.h"
 
 #include <weft/IO/read_pslg.h>
 #include <weft/IO/report_json.h>
@@ -129,15 +130,9 @@ void read_filenames(const command_line::Arguments& arguments, Request& request)
   for (const std::string& filename : request.outputs)
     if (!weft::IO::is_mesh_filename(filename))
       throw Error("--output: '" + filename + "' should end in .vtu, .mesh, .msh, .off or .svg");
-  const auto filename = [&arguments](const std::string& option, const std::string& extension) {
-    const std::string name = arguments.value(option);
-    if (!name.empty() && !command_line::has_extension(name, extension))
-      throw Error(option + ": '" + name + "' should end in " + extension);
-    return name;
-  };
-  request.voronoi = filename("--voronoi", ".svg");
-  request.histogram = filename("--histogram", ".svg");
-  request.report = filename("--report", ".json");
+  request.voronoi = arguments.filename("--voronoi", ".svg");
+  request.histogram = arguments.filename("--histogram", ".svg");
+  request.report = arguments.filename("--report", ".json");
 }
 
 Request read_request(const command_line::Arguments& arguments)
@@ -183,47 +178,6 @@ Pslg graph_of(const Cdt& cdt)
                               number.at(edge->first->vertex(Cdt::cw(edge->second))->point())});
   return graph;
 }
-
-// ---- Progress
-
-/// Maps a run, whose length nobody knows beforehand, to a bar: relaxation approaches its end step by step, refinement
-/// and polishing are as far as bad elements have become fewer.
-class Meshing_progress
-{
-public:
-  explicit Meshing_progress(bool wanted) : bar_(wanted) {}
-
-  bool operator()(const weft::Progress& progress)
-  {
-    std::string text = std::string(name(progress.stage)) + ", " + std::to_string(progress.vertices) + " vertices";
-    if (progress.bad > 0) text += ", " + std::to_string(progress.bad) + " bad";
-    bar_.show(part(progress), text);
-    return !command_line::Interruption::wished();
-  }
-
-  command_line::Progress_bar& bar() { return bar_; }
-
-private:
-  double part(const weft::Progress& progress)
-  {
-    constexpr double relaxation_begins = 0.1, refinement_begins = 0.5;
-    switch (progress.stage) {
-    case weft::Stage::constraints:
-    case weft::Stage::seeding:
-      return 0.5 * relaxation_begins;
-    case weft::Stage::relaxation:
-      unrelaxed_ *= 0.9;
-      return refinement_begins - (refinement_begins - relaxation_begins) * unrelaxed_;
-    default:
-      most_bad_ = std::max(most_bad_, progress.bad);
-      return 1 - (1 - refinement_begins) * std::log1p(progress.bad) / std::log1p(std::max<std::size_t>(most_bad_, 1));
-    }
-  }
-
-  command_line::Progress_bar bar_;
-  double unrelaxed_ = 1;
-  std::size_t most_bad_ = 0;
-};
 
 // ---- Output
 
@@ -275,12 +229,10 @@ std::string what_is_missing(const weft::Mesh_report_2& report, double min_angle)
   std::string text = report.stop_reason == weft::Stop_reason::criteria_met
                          ? std::string("not all criteria hold")
                          : std::string("stopped early, ") + name(report.stop_reason);
-  const auto count = [](std::size_t n, const char* one, const char* many) {
-    return std::to_string(n) + " " + (n == 1 ? one : many);
-  };
-  if (report.oversized > 0) text += ": " + count(report.oversized, "element is", "elements are") + " too large";
+  using weft::internal::counted;
+  if (report.oversized > 0) text += ": " + counted(report.oversized, "element is", "elements are") + " too large";
   if (report.below_min_angle > 0)
-    text += (report.oversized > 0 ? ", " : ": ") + count(report.below_min_angle, "triangle has", "triangles have") +
+    text += (report.oversized > 0 ? ", " : ": ") + counted(report.below_min_angle, "triangle has", "triangles have") +
             " an angle below " + weft::internal::one_decimal(min_angle) + " degrees";
   if (report.oversized == 0 && report.below_min_angle == 0) text += ": sizes hold, but shapes could be better";
   return text;
@@ -293,7 +245,7 @@ template <class Sizing>
 Status mesh(const Request& request, Cdt& cdt, const Tags& tags, const Sizing& sizing, command_line::Output_files& files)
 {
   const Cdt input = request.histogram.empty() ? Cdt() : cdt;
-  Meshing_progress progress(!request.quiet);
+  Meshing_progress progress(!request.quiet, 0.5);
   weft::Mesh_options_2 options = request.options;
   options.visitor = std::ref(progress);
   const weft::Mesh_report_2 report = weft::make_mesh_2(cdt, sizing, options);
@@ -340,9 +292,13 @@ Status run(const Request& request)
   for (const std::string& filename : {request.voronoi, request.histogram, request.report})
     if (!filename.empty()) files.announce(filename);
   const command_line::Interruption interruption;
-  if (request.lfs > 0)
-    return mesh(request, cdt, tags, weft::Lfs_sizing_2<K>(graph_of(cdt), request.lfs, request.min_size), files);
-  return mesh(request, cdt, tags, weft::Uniform_sizing<>(request.size), files);
+  try {
+    if (request.lfs > 0)
+      return mesh(request, cdt, tags, weft::Lfs_sizing_2<K>(graph_of(cdt), request.lfs, request.min_size), files);
+    return mesh(request, cdt, tags, weft::Uniform_sizing<>(request.size), files);
+  } catch (const weft::Domain_error& error) {
+    throw Error(request.input + ": " + error.what());
+  }
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 // Properties of the program mesh_2 as a user sees it: exit statuses, what it says and where, and which files are there
 // afterwards. The program is run for each of them in an empty folder.
 
+#include "program_fixture.h"
+
 #include <weft/version.h>
 
 #include <catch2/catch.hpp>
@@ -17,94 +19,26 @@
 #include <string>
 #include <vector>
 
-#ifndef _WIN32
-#include <sys/wait.h>
-#endif
-
 namespace {
 
 namespace fs = std::filesystem;
-using Names = std::set<std::string>;
+using program::contains;
+using program::content;
+using program::Names;
+using program::number;
+using program::Outcome;
 
 const std::string unit_square = "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n";
 
-std::string content(const fs::path& file)
+/// An empty folder that goes with the test case, where mesh_2 runs.
+struct Folder : program::Folder
 {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-bool contains(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
-
-/// What a run left.
-struct Outcome
-{
-  int status;
-  std::string out, err;
+  explicit Folder(const std::string& name) : program::Folder("mesh_2_program_test_" + name, WEFT_MESH_2) {}
 };
 
-/// An empty folder that goes with the test case.
-class Folder
-{
-public:
-  explicit Folder(const std::string& name) : path_(fs::current_path() / ("mesh_2_program_test_" + name))
-  {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Folder()
-  {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-
-  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
-  std::string read(const std::string& name) const { return content(path_ / name); }
-
-  /// Names of all files, hidden ones included.
-  Names files() const
-  {
-    Names names;
-    for (const auto& entry : fs::directory_iterator(path_)) names.insert(entry.path().filename().string());
-    return names;
-  }
-
-  /// Runs the program here. \param before goes before the program on the command line.
-  Outcome run(const std::string& arguments, const std::string& before = "") const
-  {
-    const std::string out = path_.string() + ".out", err = path_.string() + ".err";
-    const std::string command = "cd '" + path_.string() + "' && " + before + " '" WEFT_MESH_2 "' " + arguments + " >'" +
-                                out + "' 2>'" + err + "' </dev/null";
-    int status = std::system(command.c_str());
-#ifndef _WIN32
-    status = WIFEXITED(status) ? WEXITSTATUS(status) : -1; // -1: killed by a signal
-#endif
-    const Outcome outcome{status, content(out), content(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return outcome;
-  }
-
-private:
-  fs::path path_;
-};
-
-/// Whether an error is one line that begins with the program's name.
 bool is_one_line(const std::string& err)
 {
-  return err.rfind("mesh_2: ", 0) == 0 && std::count(err.begin(), err.end(), '\n') == 1 && err.back() == '\n';
-}
-
-/// The number after `"name": ` in a JSON text.
-double number(const std::string& json, const std::string& name)
-{
-  const std::string key = "\"" + name + "\": ";
-  const std::size_t place = json.find(key);
-  REQUIRE(place != std::string::npos);
-  return std::stod(json.substr(place + key.size()));
+  return program::is_one_line(err, "mesh_2");
 }
 
 /// Number of triangles in an .off file.
@@ -243,6 +177,7 @@ TEST_CASE("bad input gives status 1, one line that names the file, and no output
       {"line.edg", "2\n0 0 1 1\n1 1 2 2\n"},
       {"point.node", "1 2 0 0\n0 0 0\n"},
       {"all_hole.poly", "3 2 0 0\n0 0 0\n1 1 0\n2 1 1\n3 0\n0 0 1\n1 1 2\n2 2 0\n1\n0 0.7 0.2\n"},
+      {"far.poly", "3 2 0 0\n0 0 0\n1 1e70 0\n2 1e70 1e70\n3 0\n0 0 1\n1 1 2\n2 2 0\n0\n"},
       {"square.stl", unit_square}};
   const Folder folder("input");
   folder.write("m.off", "an older file\n");
@@ -263,6 +198,9 @@ TEST_CASE("bad input gives status 1, one line that names the file, and no output
 
   const Outcome crossing = folder.run("cross.poly --size 0.1");
   CHECK(contains(crossing.err, "--split-crossings"));
+  CHECK(contains(crossing.err, "segments 1 and 3, counted from 0, cross"));
+  folder.write("from_1.poly", "4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n4 0\n1 1 2\n2 2 4\n3 4 3\n4 3 1\n0\n");
+  CHECK(contains(folder.run("from_1.poly --size 0.1").err, "segments 2 and 4, counted from 1, cross"));
   CHECK(folder.run("cross.poly --size 0.1 --split-crossings --output s.off").status == 0);
   CHECK(triangles(folder.read("s.off")) > 50);
 }

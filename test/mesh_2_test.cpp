@@ -425,6 +425,28 @@ TEST_CASE("sizes far below the domain's end in the vertex budget, far above it i
   }
 }
 
+TEST_CASE("a hundred thousand vertices in sight of the convex hull don't make a run slow to begin or end")
+{
+  constexpr std::size_t n = 100000;
+  for (const double dent : {0., 0.3}) { // convex; with seven bays
+    INFO("dent " << dent);
+    Pslg pslg;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = 2 * std::acos(-1.) * static_cast<double>(i) / n, r = 1 + dent * std::cos(7 * t);
+      pslg.points.emplace_back(r * std::cos(t), r * std::sin(t));
+      pslg.segments.push_back({i, (i + 1) % n});
+    }
+    Cdt cdt = triangulate(pslg);
+    Mesh_options_2 options;
+    options.max_vertices = n + 1000;
+    const auto start = std::chrono::steady_clock::now();
+    const Mesh_report_2 report = weft::make_mesh_2(cdt, Uniform(0.1), options);
+    CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 20);
+    CHECK(report.stop_reason == weft::Stop_reason::vertex_budget);
+    CHECK(mesh_faults(cdt, pslg) == "");
+  }
+}
+
 TEST_CASE("a time limit of zero ends at once with a valid mesh")
 {
   for (const Domain& domain : domains())
@@ -647,7 +669,7 @@ void check_smallest_angle(const Domain& domain, double angle, weft::Seeding seed
 
 } // namespace
 
-TEST_CASE("a smallest angle is reached", "[!shouldfail]")
+TEST_CASE("a smallest angle is reached")
 {
   for (const Domain& domain : domains())
     for (const double angle : {20.0, 28.0})
@@ -655,14 +677,14 @@ TEST_CASE("a smallest angle is reached", "[!shouldfail]")
         if (domain.name != "star" && domain.name != "isolated points") check_smallest_angle(domain, angle, seeding);
 }
 
-TEST_CASE("a smallest angle is reached around isolated points", "[!shouldfail]")
+TEST_CASE("a smallest angle is reached around isolated points")
 {
   for (const double angle : {20.0, 28.0})
     for (const auto seeding : {weft::Seeding::crystal, weft::Seeding::none})
       check_smallest_angle({"isolated points", isolated_points()}, angle, seeding);
 }
 
-TEST_CASE("refining for a smallest angle ends at sharper input angles", "[!shouldfail]")
+TEST_CASE("refining for a smallest angle ends at sharper input angles")
 {
   Pslg wedge;
   add_loop(wedge, {{0, 0}, {1, 0}, {1, 0.15}});
@@ -678,7 +700,7 @@ TEST_CASE("input below the resolution of the sizing field keeps its angles")
   Cdt cdt = triangulate(circle(720));
   const Mesh_report_2 report = mesh_and_check(cdt, circle(720), Uniform(0.06));
   CHECK(report.ok());
-  CHECK(weft::measure_quality_2(cdt).smallest_angle.degrees > 20);
+  CHECK(weft::measure_quality_2(cdt).smallest_angle.degrees > 25);
 }
 
 TEST_CASE("meshing a mesh again keeps all its vertices and meets a smaller size")
@@ -696,15 +718,22 @@ TEST_CASE("meshing a mesh again keeps all its vertices and meets a smaller size"
 
 namespace {
 
-void check_relaxing_a_mesh_of_cgal(const Domain& domain)
+Cdt mesh_by_cgal(const Pslg& pslg, double size)
 {
-  INFO(domain.name);
-  Cdt cdt = triangulate(domain.pslg);
-  CGAL::Delaunay_mesher_2<Cdt, CGAL::Delaunay_mesh_size_criteria_2<Cdt>> mesher(cdt, {0.125, 0.06});
+  Cdt cdt = triangulate(pslg);
+  CGAL::Delaunay_mesher_2<Cdt, CGAL::Delaunay_mesh_size_criteria_2<Cdt>> mesher(cdt, {0.125, size});
   mesher.refine_mesh();
   for (const auto f : cdt.all_face_handles()) f->set_in_domain(false);
   weft::mark_domain_by_parity(cdt);
+  return cdt;
+}
+
+void check_relaxing_a_mesh_of_cgal(const Domain& domain)
+{
+  INFO(domain.name);
+  Cdt cdt = mesh_by_cgal(domain.pslg, 0.06);
   const weft::Quality_2 before = weft::measure_quality_2(cdt);
+  const double ratio_before = weft::measure_sizing_2(cdt, Uniform(0.06)).triangles.largest;
   std::set<Point> on_constraints;
   for (const auto v : cdt.finite_vertex_handles())
     if (cdt.are_there_incident_constraints(v)) on_constraints.insert(v->point());
@@ -723,23 +752,39 @@ void check_relaxing_a_mesh_of_cgal(const Domain& domain)
   CHECK(kept == on_constraints.size());
   const weft::Quality_2 after = weft::measure_quality_2(cdt);
   CHECK(after.area == Approx(before.area));
-  CHECK((after.mean_smallest_angle > before.mean_smallest_angle ||
-         after.smallest_angle.degrees > before.smallest_angle.degrees));
-  CHECK(after.mean_smallest_angle > before.mean_smallest_angle - 1);
-  CHECK(after.smallest_angle.degrees > before.smallest_angle.degrees - 5);
+  CHECK(after.mean_smallest_angle > before.mean_smallest_angle);
+  CHECK(after.smallest_angle.degrees >= before.smallest_angle.degrees - 1e-6);
+  CHECK(report.largest_ratio <= (std::max)(1.0, ratio_before * (1 + 1e-6)));
 }
 
 } // namespace
 
 TEST_CASE("relaxing a mesh of CGAL's mesher improves it and keeps all that is given")
 {
-  for (const Domain& domain : domains())
-    if (domain.name != "star") check_relaxing_a_mesh_of_cgal(domain);
+  for (const Domain& domain : domains()) check_relaxing_a_mesh_of_cgal(domain);
 }
 
-TEST_CASE("relaxing a mesh of CGAL's mesher with sharp spikes improves it", "[!shouldfail]")
+TEST_CASE("relaxing never makes a mesh worse, whatever sizes it was made for and however early it ends")
 {
-  check_relaxing_a_mesh_of_cgal({"star", star()});
+  for (const Domain& domain : domains())
+    for (const double size : {0.01, 0.03, 0.05, 0.08, 0.3})
+      for (const int sweeps : {0, 1, 3, 100})
+        for (const bool polish : {false, true}) {
+          INFO(domain.name << ", size " << size << ", sweeps " << sweeps << ", polish " << polish);
+          Cdt cdt = mesh_by_cgal(domain.pslg, 0.06);
+          const weft::Quality_2 before = weft::measure_quality_2(cdt);
+          const double ratio = weft::measure_sizing_2(cdt, Uniform(size)).triangles.largest;
+          Mesh_options_2 options;
+          options.max_sweeps = sweeps;
+          options.polish = polish;
+          weft::relax_2(cdt, Uniform(size), options);
+          const weft::Quality_2 after = weft::measure_quality_2(cdt);
+          CHECK(faults(weft::validate_2(cdt)) == "");
+          CHECK(after.mean_smallest_angle >= before.mean_smallest_angle - 1e-6);
+          CHECK(after.smallest_angle.degrees >= before.smallest_angle.degrees - 1e-6);
+          CHECK(after.largest_angle.degrees <= before.largest_angle.degrees + 1e-6);
+          CHECK(weft::measure_sizing_2(cdt, Uniform(size)).triangles.largest <= (std::max)(1.0, ratio * (1 + 1e-6)));
+        }
 }
 
 TEST_CASE("points a unit in the last place apart, and equal ones, are meshed")
@@ -780,7 +825,14 @@ TEST_CASE("relaxing stops at budgets and survives failing fields")
     CHECK(weft::relax_2(cdt, Uniform(0.05), options).stop_reason == weft::Stop_reason::cancelled);
     CHECK(mesh_faults(cdt, annulus()) == "");
   }
-  for (int n = 0; n < 20000; n = 2 * n + 1) {
+  int all_calls = 0;
+  {
+    Cdt cdt = coarse();
+    weft::relax_2(cdt, Field([&](const Point&) { return ++all_calls, 0.05; }));
+  }
+  CHECK(all_calls > 1000);
+  for (int n = 0; n < all_calls; n = 2 * n + 1) {
+    INFO("from call " << n + 1 << " of " << all_calls);
     Cdt cdt = coarse();
     int calls = 0;
     const Field field = [&](const Point&) { return ++calls > n ? std::nan("") : 0.05; };

@@ -179,7 +179,24 @@ TEST_CASE("crossing segments are refused by name")
   pslg.segments.push_back({1, 3});
   const Refusal refusal(pslg);
   CHECK(refusal.elements == Indices{4, 5});
-  CHECK(refusal.text.find("segments 4 and 5 cross") != std::string::npos);
+  CHECK(refusal.text.find("segments 4 and 5, counted from 0, cross") != std::string::npos);
+}
+
+TEST_CASE("messages number points and segments as their file does")
+{
+  Pslg pslg = square();
+  pslg.first_number = 1;
+  pslg.segments.push_back({0, 2});
+  pslg.segments.push_back({1, 3});
+  const Refusal crossing(pslg);
+  CHECK(crossing.elements == Indices{4, 5});
+  CHECK(crossing.text == "segments 5 and 6, counted from 1, cross");
+  pslg.segments[4] = {0, 9};
+  CHECK(Refusal(pslg).text == "segment 5, counted from 1, refers to point 10, which doesn't exist");
+  pslg.segments[4] = {2, 2};
+  CHECK(Refusal(pslg).text == "segment 5, counted from 1, has length zero");
+  pslg.points[3] = Point(0, std::numeric_limits<double>::infinity());
+  CHECK(Refusal(pslg).text == "point 4, counted from 1, has a coordinate that is not finite");
 }
 
 TEST_CASE("segments that cross by less than rounding are refused")

@@ -40,6 +40,8 @@ Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& 
 
 /// Relaxes an existing mesh: vertices without constraints move to better places, those on constraints stay, nothing is
 /// inserted. Parameters and guarantees as above; the report says whether sizes hold, which relaxation can't promise.
+/// But it never makes the mesh worse: the smallest and largest angle (but those between two constraints), the mean of
+/// the triangles' smallest angles and, beyond 1, the largest sizing ratio are as good as before or better.
 template <class Cdt, class Sizing>
 Mesh_report_2 relax_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
 {

@@ -33,11 +33,16 @@ struct Mesh_options_2
   int max_sweeps = 12;            ///< most sweeps a relaxation
   int max_batches = 400;          ///< most batches of refinement
 
-  double min_angle = 0;    ///< smallest angle in degrees to refine for, where the input allows it; 0: only sizes count
+  /// Smallest angle in degrees to refine for, where the input allows it; 0: only sizes count. With `grade_input` and
+  /// `polish` on, angles below 25 degrees are mended in any case, as far as a quarter more vertices suffices; what is
+  /// left of them then is not a criterion that failed.
+  double min_angle = 0;
   bool grade_input = true; ///< let elements shrink towards input details finer than the sizing field
   bool polish = true;      ///< improve the worst triangles at the end
 
-  std::size_t max_vertices = 5000000;                          ///< vertex budget
+  /// Vertex budget. With crystals, a run whose constraints need more, or whose domain does at a uniform size, ends
+  /// before it inserts anything.
+  std::size_t max_vertices = 5000000;
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
   unsigned seed = 0;                                           ///< start of every random choice
   int threads = 1; ///< threads to use where oneTBB is linked; never changes the result
@@ -54,6 +59,32 @@ struct Mesh_options_2
     require(size_feedback >= 0 && size_feedback <= 8, "size_feedback must lie in [0, 8]");
     require(max_sweeps >= 0 && max_batches >= 0, "iteration limits must not be negative");
     require(min_angle >= 0 && min_angle <= 40, "min_angle must lie in [0, 40] degrees");
+    require(time_limit >= 0, "time_limit must not be negative");
+    require(threads > 0, "threads must be positive");
+  }
+};
+
+/// Options of `make_mesh_3()`.
+struct Mesh_options_3
+{
+  double size_floor = 0; ///< no Steiner point closer to a vertex, in the input's units; 0: chosen from the criteria
+  bool lattice = true;   ///< fill thick parts with a body-centred cubic lattice where the size is constant
+  double initial_relaxation = 2;       ///< factor by which criteria are loosened for the first mesh
+  std::size_t max_batches = 2000;      ///< most batches of refinement
+  std::size_t max_vertices = 20000000; ///< vertex budget
+  double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
+  unsigned seed = 0;                                           ///< start of every random choice
+  int threads = 1; ///< threads to use where oneTBB is linked; never changes the result
+  Visitor visitor; ///< sees progress, may stop the run; may be empty
+
+  /// \throws Option_error naming the first option outside its range.
+  void check() const
+  {
+    const auto require = [](bool holds, const char* what) {
+      if (!holds) throw Option_error(what);
+    };
+    require(size_floor >= 0, "size_floor must not be negative");
+    require(initial_relaxation >= 1, "initial_relaxation must be at least 1");
     require(time_limit >= 0, "time_limit must not be negative");
     require(threads > 0, "threads must be positive");
   }

@@ -5,6 +5,8 @@
 #ifndef WEFT_REPORT_H
 #define WEFT_REPORT_H
 
+#include <weft/internal/counted.h>
+
 #include <cstddef>
 #include <ostream>
 #include <string>
@@ -21,6 +23,7 @@ enum class Stop_reason
   vertex_budget,
   time_limit,
   cancelled,
+  exhausted, ///< nothing more can be done about the elements that are still bad
   resolution ///< elements would be smaller than coordinates can tell apart
 };
 
@@ -38,6 +41,8 @@ inline const char* name(Stop_reason reason)
     return "time limit reached";
   case Stop_reason::cancelled:
     return "cancelled";
+  case Stop_reason::exhausted:
+    return "nothing more can be done about what is still bad";
   default:
     return "resolution of coordinates reached";
   }
@@ -74,15 +79,89 @@ struct Mesh_report_2
 /// Several lines for a person.
 inline std::ostream& operator<<(std::ostream& out, const Mesh_report_2& r)
 {
-  out << r.vertices << " vertices (" << r.input_vertices << " given, " << r.constraint_steiner << " on constraints, "
-      << r.interior_steiner << " inside), " << r.triangles << " triangles\n"
+  using internal::counted;
+  out << counted(r.vertices, "vertex (", "vertices (") << r.input_vertices << " given, " << r.constraint_steiner
+      << " on constraints, " << r.interior_steiner << " inside), " << counted(r.triangles, "triangle", "triangles")
+      << "\n"
       << "angles " << r.smallest_angle << " to " << r.largest_angle << " degrees, largest edge / size "
       << r.largest_ratio << "\n"
       << name(r.stop_reason);
-  if (r.oversized) out << ", " << r.oversized << " elements too large";
-  if (r.below_min_angle) out << ", " << r.below_min_angle << " triangles below the smallest angle asked for";
+  if (r.oversized) out << ", " << counted(r.oversized, "element", "elements") << " too large";
+  if (r.below_min_angle)
+    out << ", " << counted(r.below_min_angle, "triangle", "triangles") << " below the smallest angle asked for";
   if (r.at_input_angle) out << ", " << r.at_input_angle << " at input angles below it";
-  out << "\n" << r.batches << " batches, " << r.sweeps << " sweeps, " << r.flips << " flips;";
+  out << "\n"
+      << counted(r.batches, "batch", "batches") << ", " << counted(r.sweeps, "sweep", "sweeps") << ", "
+      << counted(r.flips, "flip", "flips") << ";";
+  for (const auto& [stage, seconds] : r.stage_seconds) out << " " << stage << " " << seconds << " s";
+  return out << "\n";
+}
+
+/// Elements of one kind that violate a criterion at the end, by what keeps them from being refined.
+struct Unsatisfied_3
+{
+  std::size_t size = 0, approximation = 0, shape = 0, topology = 0, disk = 0; ///< by criterion; may overlap
+  std::size_t elements = 0;                                                   ///< bad elements altogether
+  std::size_t at_floor = 0;      ///< of them, whose Steiner point would come closer to a vertex than the size floor
+  std::size_t at_acute_edge = 0; ///< of them, beside an edge of the input with an acute dihedral angle
+};
+
+/// Result of `make_mesh_3()`.
+struct Mesh_report_3
+{
+  std::size_t vertices = 0; ///< of the mesh; the box and vertices without a cell in the domain don't count
+  std::size_t corner_vertices = 0, crease_vertices = 0, patch_vertices = 0, interior_vertices = 0;
+  std::size_t cells = 0, facets = 0, crease_edges = 0;
+
+  double smallest_dihedral = 0, largest_dihedral = 0;     ///< degrees, over all cells of the mesh
+  double largest_facet_shape = 0, largest_cell_shape = 0; ///< circumradius / shortest edge
+  bool manifold = false;                                  ///< whether the boundary is a closed 2-manifold
+
+  Unsatisfied_3 bad_edges, bad_facets, bad_cells;
+  std::size_t bad_vertices = 0; ///< vertices without a topological disk of boundary facets or crease edges
+  std::size_t bare_patches = 0; ///< patches without a boundary facet
+
+  std::size_t batches = 0;
+  std::size_t candidates = 0;       ///< Steiner points whose conflict zone was looked for
+  std::size_t encroachments = 0;    ///< Steiner points replaced by that of an element they encroach upon
+  std::size_t segment_queries = 0;  ///< Voronoi edges against the boundary
+  std::size_t location_queries = 0; ///< points located in the domain
+  std::size_t skipped_queries = 0;  ///< questions that needn't be put to the oracle
+
+  Stop_reason stop_reason = Stop_reason::criteria_met;
+  std::vector<std::pair<std::string, double>> stage_seconds; ///< wall time by stage, in order
+
+  std::size_t bad() const
+  {
+    return bad_edges.elements + bad_facets.elements + bad_cells.elements + bad_vertices + bare_patches;
+  }
+  /// Whether every requested criterion holds.
+  bool ok() const { return stop_reason == Stop_reason::criteria_met && bad() == 0; }
+};
+
+/// Several lines for a person.
+inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
+{
+  using internal::counted;
+  const auto unsatisfied = [&out](const Unsatisfied_3& u, const char* what) {
+    if (!u.elements) return;
+    out << u.elements << " bad " << what << " (size " << u.size << ", approximation " << u.approximation << ", shape "
+        << u.shape << ", topology " << u.topology << ", disk " << u.disk << "; at the size floor " << u.at_floor
+        << ", at acute edges of the input " << u.at_acute_edge << ")\n";
+  };
+  out << r.vertices << " vertices (" << r.corner_vertices << " feature, " << r.crease_vertices << " on creases, "
+      << r.patch_vertices << " on patches, " << r.interior_vertices << " inside), " << r.cells << " cells, " << r.facets
+      << " boundary facets\n"
+      << "dihedral angles " << r.smallest_dihedral << " to " << r.largest_dihedral << " degrees, boundary "
+      << (r.manifold ? "a closed manifold" : "not manifold") << "\n"
+      << name(r.stop_reason) << "\n";
+  unsatisfied(r.bad_edges, "crease edges");
+  unsatisfied(r.bad_facets, "facets");
+  unsatisfied(r.bad_cells, "cells");
+  if (r.bad_vertices) out << r.bad_vertices << " vertices without a topological disk\n";
+  if (r.bare_patches) out << counted(r.bare_patches, "patch", "patches") << " without a facet\n";
+  out << r.batches << " batches, " << r.candidates << " candidates, " << r.encroachments << " encroachments, "
+      << r.segment_queries << " segment queries, " << r.skipped_queries << " skipped;";
   for (const auto& [stage, seconds] : r.stage_seconds) out << " " << stage << " " << seconds << " s";
   return out << "\n";
 }

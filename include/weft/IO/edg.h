@@ -28,6 +28,7 @@ Pslg_2<K> read_edg(const std::string& filename)
   in.require_end_of_line();
 
   Pslg_2<K> pslg;
+  pslg.first_number = 1;
   std::map<std::pair<double, double>, std::size_t> numbers;
   for (std::size_t i = 0; i < n; ++i) {
     in.require_line("edge " + std::to_string(i + 1) + " of " + std::to_string(n));

@@ -7,6 +7,7 @@
 #ifndef WEFT_IO_GMSH_H
 #define WEFT_IO_GMSH_H
 
+#include <weft/IO/gmsh_3.h> // the overload for spatial meshes
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
 

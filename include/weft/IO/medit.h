@@ -9,6 +9,7 @@
 
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
+#include <weft/IO/medit_3.h> // the overload for spatial meshes
 
 #include <string>
 

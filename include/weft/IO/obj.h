@@ -45,6 +45,7 @@ Pslg_2<K> read_obj(const std::string& filename)
 {
   internal::Line_reader in(filename);
   Pslg_2<K> pslg;
+  pslg.first_number = 1;
   while (in.next_line()) {
     const std::string_view keyword = in.word("a keyword");
     if (keyword == "v") {

@@ -7,6 +7,7 @@
 
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
+#include <weft/IO/off_3.h> // the overload for spatial meshes
 
 #include <string>
 

@@ -39,6 +39,7 @@ long long read_node_section(Line_reader& in, Pslg_2<K>& pslg, bool may_be_empty)
     const long long number = in.integer("the number of the point");
     if (i == 0 && number != 0 && number != 1) in.fail("points should be numbered from 0 or 1");
     if (i == 0) first = number;
+    if (i == 0) pslg.first_number = static_cast<std::size_t>(number);
     if (number != first + static_cast<long long>(i)) in.fail("the points aren't numbered one after the other");
     const double x = in.number("x"), y = in.number("y");
     pslg.points.emplace_back(x, y);

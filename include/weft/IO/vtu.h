@@ -10,22 +10,14 @@
 
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
+#include <weft/IO/internal/vtu_array.h>
+#include <weft/IO/vtu_3.h> // the overload for spatial meshes
 
 #include <cstddef>
 #include <string>
 
 namespace weft {
 namespace internal {
-
-inline Text_writer& begin_vtu_array(Text_writer& out, const std::string& type, const std::string& name)
-{
-  return out << "        <DataArray type=\"" << type << "\" Name=\"" << name << "\" format=\"ascii\">\n";
-}
-
-inline void end_vtu_array(Text_writer& out)
-{
-  out << "        </DataArray>\n";
-}
 
 inline void write_vtu_cells(Text_writer& out, const Indexed_mesh_2& mesh)
 {

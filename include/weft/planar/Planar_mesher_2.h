@@ -10,15 +10,16 @@
 #include <weft/internal/timer.h>
 #include <weft/options.h>
 #include <weft/planar/input_grading_2.h>
-#include <weft/planar/lloyd_2.h>
+#include <weft/planar/least_vertices_2.h>
 #include <weft/planar/pliant_2.h>
 #include <weft/planar/polish_2.h>
 #include <weft/planar/quality_2.h>
 #include <weft/planar/refine_2.h>
+#include <weft/planar/relax_2.h>
+#include <weft/planar/relaxation_guard_2.h>
 #include <weft/planar/sample_constraints_2.h>
 #include <weft/planar/seed_crystals_2.h>
 #include <weft/planar/Working_mesh_2.h>
-#include <weft/relocate/Relocator_2.h>
 #include <weft/report.h>
 
 #include <algorithm>
@@ -46,6 +47,7 @@ public:
         sizing_(sizing),
         options_(options),
         refiner_(mesh_, options.min_angle),
+        relaxer_(mesh_, options.size_feedback, options.threads),
         polisher_(mesh_),
         pliant_(mesh_, polisher_)
   {
@@ -55,6 +57,7 @@ public:
   Mesh_report_2 mesh()
   {
     if (options_.seeding == Seeding::crystal) {
+      timed(Stage::constraints, [this] { check_budget(); });
       if (options_.grade_input) timed(Stage::constraints, [this] { grade_input(); });
       timed(Stage::constraints, [this] { sample_constraints(); });
       timed(Stage::seeding, [this] { seed(); });
@@ -66,28 +69,36 @@ public:
 
   Mesh_report_2 relax()
   {
+    if (options_.grade_input) timed(Stage::constraints, [this] { set_grading_2(mesh_, mesh_); });
+    Relaxation_guard_2<Mesh> guard(mesh_);
     timed(Stage::relaxation, [this] { relax_all(options_.final_move_ratio, options_.final_quadrature); });
     if (options_.polish) timed(Stage::polishing, [this] { polish_angles(); });
+    guard.mend();
+    if (guard.is_worse()) {
+      guard.restore();
+      if (options_.polish) timed(Stage::polishing, [this] { polish_angles(); }); // by itself it does little harm
+      if (guard.is_worse()) guard.restore();
+    }
     refiner_.find_bad();
     return finish();
   }
 
 private:
-  // Lattice spacing and metric length of constrained edges to aim at, in parts of the target. On the square at 10k
-  // triangles a spacing of 0.82 ends at 1.48 times the ideal number of triangles, 0.86 at 1.35; from 0.88 on the layer
-  // along the constraints needs so many insertions that the total grows again.
+  // Lattice spacing and metric length of constrained edges to aim at, in parts of the target. A wider lattice ends with
+  // fewer triangles, but the layer along the constraints takes longer: for spacings of 0.86 / 0.88 / 0.90 / 0.92 / 0.94
+  // the square at 10k triangles has 1.34 / 1.29 / 1.24 / 1.19 / 1.16 times the ideal number of triangles after
+  // 18 / 18 / 20 / 28 / 38 ms, a comb 1.34 / 1.32 / 1.31 / 1.30 / 1.29 times after 66 / 80 / 99 / 141 / 182 ms.
   static constexpr double lattice_spacing = 0.9, constraint_spacing = 0.9;
-
-  // Sizes at details of the input, over edge lengths and channel widths there, and their growth with distance. Where the
-  // input is finer than the size, CGAL's refinement (20.7 degrees) needs 2974 Steiner points for a fractal shore, 773 for 302
-  // segments of lakes; with growth 0.80 / 0.85 / 0.90 these are 3002 / 2701 / 2505 and 660 / 615 / 616, with smallest angles
-  // of 20.6 / 25.1 / 19.3 degrees on the shore.
-  static constexpr double detail_edge = 1.2, detail_width = 1.2, detail_growth = 0.85;
 
   // Costs from which triangles are polished (38 degrees) and mended by inserting or removing a vertex (37 degrees).
   static constexpr double polish_cost = 0.5, pliant_cost = 1;
   static constexpr std::size_t least_insertions = 20;
-  static constexpr int most_pliant_passes = 6, most_rounds = 8, most_fruitless_batches = 60;
+
+  // Angles below this are refined even if nobody asks for it. On details of the input finer than the size the pliant
+  // step's budget leaves angles of 18 to 23 degrees; 25 cost 0 to 4 % more vertices there, 28 up to 40 %.
+  static constexpr double mended_angle = 25;
+  static constexpr int most_pliant_passes = 6, most_rounds = 8, most_fruitless_batches = 60, most_local_sweeps = 8,
+                       most_polishing_passes = 30;
 
   template <class Function>
   void timed(Stage stage, const Function& function)
@@ -124,37 +135,27 @@ private:
     report_.stop_reason = reason;
   }
 
+  /// Stops a run that can't end within its budget.
+  void check_budget()
+  {
+    if constexpr (Mesh::uniform)
+      if (internal::least_vertices(mesh_, CGAL::to_double(sizing_.size())) >
+          static_cast<double>((std::max)(options_.max_vertices, mesh_.vertices().size())))
+        stop(Stop_reason::vertex_budget);
+  }
+
   void grade_input()
   {
-    Cdt copy(mesh_.triangulation());
-    remove_frame(copy);
-    Mesh scratch(copy, sizing_);
-    const auto go = [this](std::size_t n) { return go_on(n); };
-    // Whatever stops this will stop the mesh itself.
-    if (!sample_constraints_2(scratch, 1, options_.max_vertices, go)) return;
-    scratch.renumber();
-    const auto details = find_input_details_2(scratch, detail_edge, detail_width);
-    if (details.points.empty()) return;
-    mesh_.set_grading(typename Mesh::Grading(details.points, details.sizes, detail_growth));
-    mesh_.renumber();
+    if (!grade_input_2(mesh_, sizing_, options_.max_vertices, [this](std::size_t n) { return go_on(n); }))
+      stop(Stop_reason::vertex_budget);
   }
 
-  /// Removes from a copy of the working mesh the frame, where the sizing field need not be defined.
-  void remove_frame(Cdt& copy) const
+  void sample_constraints()
   {
-    std::vector<Vertex_handle> frame;
-    for (const Vertex_handle v : copy.finite_vertex_handles())
-      if (v->id() >= static_cast<int>(mesh_.vertices().size())) frame.push_back(v);
-    for (const Vertex_handle v : frame) copy.remove(v);
-  }
-
-  bool sample_constraints()
-  {
-    const bool done = sample_constraints_2(mesh_, constraint_spacing, options_.max_vertices,
-                                           [this](std::size_t n) { return go_on(n); });
-    if (!done) stop(Stop_reason::vertex_budget);
+    if (!sample_constraints_2(mesh_, constraint_spacing, options_.max_vertices,
+                              [this](std::size_t n) { return go_on(n); }))
+      stop(Stop_reason::vertex_budget);
     mesh_.renumber();
-    return done;
   }
 
   void seed()
@@ -165,116 +166,69 @@ private:
     mesh_.renumber();
   }
 
-  /// Relaxes every vertex; those that have come to rest are left alone while their neighbors rest, too.
   void relax_all(double move_ratio, int quadrature)
   {
-    relax(mesh_.vertices(), move_ratio, quadrature, options_.max_sweeps);
+    relax(mesh_.vertices(), {move_ratio, quadrature, options_.max_sweeps});
   }
 
-  void relax(std::vector<Vertex_handle> active, double move_ratio, int quadrature, int sweeps)
+  void relax(std::vector<Vertex_handle> active, const typename Relaxer_2<Mesh>::Effort& effort)
   {
-    // A vertex rests when it moves less than this part of the stopping ratio.
-    constexpr double rest = 0.1;
-    Lloyd_2<Mesh> smoother(mesh_, options_.size_feedback, quadrature, options_.threads);
-    std::vector<char> is_active(mesh_.vertices().size(), 0);
-    std::vector<Vertex_handle> moving;
-    std::vector<Point> targets;
-    for (int sweep = 0; sweep < sweeps && !active.empty() && go_on(); ++sweep) {
-      smoother.compute(faces_around(active, is_active));
-      moving.clear();
-      targets.clear();
-      double largest = 0;
-      for (const Vertex_handle v : active) {
-        if (v->constraint() == fixed_vertex) continue;
-        const auto t = smoother.target(v);
-        largest = (std::max)(largest, t.move_ratio);
-        if (t.move_ratio < rest * move_ratio) continue;
-        moving.push_back(v);
-        targets.push_back(t.point);
-      }
-      count(mesh_.relocator().move(moving, targets));
-      for (const Vertex_handle v : moving) mesh_.update_target(v);
-      ++report_.sweeps;
-      if (largest < move_ratio) break;
-      active = with_neighbors(moving);
-    }
-  }
-
-  void count(const Relocation_counts& c)
-  {
-    report_.moves += c.moved;
-    report_.put_back += c.put_back;
-    report_.flips += c.flips;
-  }
-
-  /// Faces of the domain around the vertices, once each; marks the vertices in `is_active` meanwhile.
-  std::vector<Face_handle> faces_around(const std::vector<Vertex_handle>& active, std::vector<char>& is_active) const
-  {
-    if (active.size() * 3 > mesh_.vertices().size()) return mesh_.faces();
-    for (const Vertex_handle v : active) is_active[v->id()] = 1;
-    std::vector<Face_handle> faces;
-    for (const Vertex_handle v : active) {
-      auto face = mesh_.triangulation().incident_faces(v);
-      const auto done = face;
-      do
-        if (face->is_in_domain() && is_first_active(face, v, is_active)) faces.push_back(face);
-      while (++face != done);
-    }
-    for (const Vertex_handle v : active) is_active[v->id()] = 0;
-    return faces;
-  }
-
-  /// A face is listed by the active vertex of it with the smallest number.
-  static bool is_first_active(Face_handle f, Vertex_handle v, const std::vector<char>& is_active)
-  {
-    for (int i = 0; i < 3; ++i)
-      if (f->vertex(i)->id() < v->id() && is_active[f->vertex(i)->id()]) return false;
-    return true;
-  }
-
-  std::vector<Vertex_handle> with_neighbors(const std::vector<Vertex_handle>& vertices) const
-  {
-    std::vector<char> listed(mesh_.vertices().size(), 0);
-    std::vector<Vertex_handle> result;
-    const auto append = [&](Vertex_handle v) {
-      if (mesh_.is_frame(v) || listed[v->id()]) return;
-      listed[v->id()] = 1;
-      result.push_back(v);
-    };
-    for (const Vertex_handle v : vertices) {
-      append(v);
-      auto neighbor = mesh_.triangulation().incident_vertices(v);
-      const auto done = neighbor;
-      do append(neighbor);
-      while (++neighbor != done);
-    }
-    std::sort(result.begin(), result.end(), [](Vertex_handle a, Vertex_handle b) { return a->id() < b->id(); });
-    return result;
+    const auto outcome = relaxer_.run(std::move(active), effort, [this] { return go_on(); });
+    report_.sweeps += outcome.sweeps;
+    report_.moves += outcome.moves.moved;
+    report_.put_back += outcome.moves.put_back;
+    report_.flips += outcome.moves.flips;
   }
 
   /// Alg. 2: refinement and relaxation in turn, then the last relaxation and polishing; all over again if a criterion
-  /// that held before doesn't hold afterwards.
+  /// that held before doesn't hold afterwards. When all hold, angles are mended, too, as far as that is cheap.
   void interleave()
   {
     const std::size_t n = mesh_.vertices().size();
     pliant_.set_budget(least_insertions + n / 50, 20 * least_insertions + n / 2);
-    bool relaxed = false;
     for (int round = 0; round < most_rounds; ++round) {
-      refine_until_good();
+      refine_and_polish(round == 0);
       if (stopped_) break;
-      // Polishing does what the last relaxation is for, and better: with both, the square at 10k triangles takes 2.6
-      // times as long for the same mesh, and lakes graded towards their shores end with a smallest angle of 6 degrees,
-      // not 12.
-      if (!relaxed && !options_.polish) {
-        relaxed = true;
-        timed(Stage::relaxation, [this] { relax_all(options_.final_move_ratio, options_.final_quadrature); });
-        refine_until_good();
-      }
-      if (options_.polish) timed(Stage::polishing, [this] { polish(); });
       bad_ = refiner_.find_bad();
-      if (bad_ == 0) return;
+      if (bad_ > 0 || begin_mending()) continue;
+      refiner_.set_min_angle(options_.min_angle);
+      return;
     }
-    stop(Stop_reason::iteration_limit);
+    stop_mending();
+    if (bad_ > 0) stop(Stop_reason::iteration_limit);
+  }
+
+  void refine_and_polish(bool first)
+  {
+    refine_until_good();
+    // Polishing does what the last relaxation is for, and better: with both, the square at 10k triangles takes 2.6
+    // times as long for the same mesh, and lakes graded towards their shores end with a smallest angle of 6 degrees,
+    // not 12.
+    if (first && !options_.polish) {
+      timed(Stage::relaxation, [this] { relax_all(options_.final_move_ratio, options_.final_quadrature); });
+      refine_until_good();
+    }
+    if (options_.polish) timed(Stage::polishing, [this] { polish(); });
+  }
+
+  /// Has refinement look for angles that nobody asked for, once. Returns whether there is something to do.
+  bool begin_mending()
+  {
+    if (most_mended_vertices_ > 0 || !options_.grade_input || !options_.polish || options_.min_angle >= mended_angle)
+      return false;
+    const std::size_t n = mesh_.vertices().size();
+    most_mended_vertices_ = n + least_insertions + n / 4;
+    is_mending_ = true;
+    refiner_.set_min_angle(mended_angle);
+    bad_ = refiner_.find_bad();
+    return bad_ > 0;
+  }
+
+  /// Only what was asked for counts again.
+  void stop_mending()
+  {
+    is_mending_ = false;
+    refiner_.set_min_angle(options_.min_angle);
     bad_ = refiner_.find_bad();
   }
 
@@ -284,9 +238,10 @@ private:
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     int fruitless = 0; // batches since there have been so few
     bool polished = false;
-    for (;;) {
+    while (!stopped_) {
       bad_ = refiner_.find_bad();
-      if (bad_ > 0 && options_.polish && refiner_.largest_ratio() < Batch_refiner_2<Mesh>::near_goal) {
+      if (bad_ == 0 || !go_on()) return;
+      if (options_.polish && refiner_.largest_ratio() < Batch_refiner_2<Mesh>::near_goal) {
         timed(Stage::polishing, [this] { polish_sizes(); });
         bad_ = refiner_.find_bad();
       }
@@ -295,16 +250,24 @@ private:
         timed(Stage::polishing, [this] { polish(); });
         continue;
       }
-      if (bad_ == 0 || !go_on()) return;
+      if (bad_ == 0 || stopped_) return;
       fruitless = bad_ < fewest ? 0 : fruitless + 1;
       fewest = (std::min)(fewest, bad_);
-      // Batches that lower sizes may well find more bad elements than before; those for angles alone have no such
-      // excuse.
-      const bool stuck = refiner_.oversized() == 0 && fruitless >= most_fruitless_batches;
-      if (stuck || report_.batches >= static_cast<std::size_t>(options_.max_batches))
-        return stop(Stop_reason::iteration_limit);
+      if (is_stuck(fruitless)) {
+        if (!is_mending_) return stop(Stop_reason::iteration_limit);
+        stop_mending();
+        continue;
+      }
       timed(Stage::refinement, [this] { refine(); });
     }
+  }
+
+  /// Batches that lower sizes may well find more bad elements than before; those for angles alone have no such excuse.
+  bool is_stuck(int fruitless) const
+  {
+    if (is_mending_ && mesh_.vertices().size() >= (std::min)(most_mended_vertices_, options_.max_vertices)) return true;
+    return report_.batches >= static_cast<std::size_t>(options_.max_batches) ||
+           (refiner_.oversized() == 0 && fruitless >= most_fruitless_batches);
   }
 
   void refine()
@@ -316,21 +279,23 @@ private:
     std::vector<Vertex_handle> fresh = refiner_.refine((std::max)(most, std::size_t(1)));
     ++report_.batches;
     mesh_.renumber();
-    if (fresh.empty()) return stop(Stop_reason::resolution);
+    if (fresh.empty()) return is_mending_ ? stop_mending() : stop(Stop_reason::resolution);
+    // Relaxation knows sizes only; it would undo what is refined for angles. Polishing follows.
+    if (refiner_.oversized() == 0) return;
     if (!near) return relax_all(options_.move_ratio, options_.quadrature);
-    for (int ring = 0; ring < 4; ++ring) fresh = with_neighbors(fresh);
-    relax(fresh, options_.move_ratio, options_.quadrature, 8);
+    for (int ring = 0; ring < 4; ++ring) fresh = relaxer_.with_neighbors(fresh);
+    relax(fresh, {options_.move_ratio, options_.quadrature, most_local_sweeps});
   }
 
   /// Pulls the last edges that are a little too long below the limit.
   void polish_sizes()
   {
-    polisher_.reset();
-    for (int pass = 0; pass < 3 && go_on(); ++pass) {
-      const std::size_t moved = polisher_.pass(Polisher_2<Mesh>::oversize_cost);
-      report_.polished += moved;
-      if (moved == 0) break;
-    }
+    report_.polished += polisher_.run(Polisher_2<Mesh>::oversize_cost, 3, [this] { return go_on(); });
+  }
+
+  void polish_angles()
+  {
+    report_.polished += polisher_.run(polish_cost, most_polishing_passes, [this] { return go_on(); });
   }
 
   /// Moves, then insertions and removals, for the worst triangles.
@@ -340,16 +305,6 @@ private:
     for (int pass = 0; pass < most_pliant_passes; ++pass) {
       if (pliant_.pass(pliant_cost, [this] { return go_on(); }) == 0) break;
       polish_angles();
-    }
-  }
-
-  void polish_angles()
-  {
-    polisher_.reset();
-    for (int pass = 0; pass < 30 && go_on(); ++pass) {
-      const std::size_t moved = polisher_.pass(polish_cost);
-      report_.polished += moved;
-      if (moved == 0) break;
     }
   }
 
@@ -377,12 +332,14 @@ private:
   const Mesh_options_2& options_;
   internal::Timer timer_;
   Batch_refiner_2<Mesh> refiner_;
+  Relaxer_2<Mesh> relaxer_;
   Polisher_2<Mesh> polisher_;
   Pliant_improver_2<Mesh> pliant_;
   Mesh_report_2 report_;
   Stage stage_ = Stage::constraints;
   std::size_t bad_ = 0;
-  bool stopped_ = false;
+  std::size_t most_mended_vertices_ = 0;
+  bool is_mending_ = false, stopped_ = false;
 };
 
 } // namespace weft

@@ -31,6 +31,8 @@ struct Pslg_2
     int marker;
   };
   std::vector<Region> regions;
+
+  std::size_t first_number = 0; ///< what messages call the first point and the first segment: 0 or 1, as the file does
 };
 
 } // namespace weft

@@ -12,6 +12,7 @@
 
 #include <weft/errors.h>
 #include <weft/planar/mark_domain.h>
+#include <weft/planar/remove_hull_vertex_2.h>
 #include <weft/planar/Triangulation_2.h>
 #include <weft/relocate/Relocator_2.h>
 #include <weft/sizing/Lipschitz_sizing_2.h>
@@ -61,7 +62,7 @@ public:
   /// Marks the domain by nesting parity if no face is in it yet.
   /// \throws Domain_error if there is no domain or its coordinates are out of range.
   Working_mesh_2(Cdt& cdt, const Sizing& sizing, Given given = Given::input)
-      : cdt_(cdt), relocator_(cdt), sizing_(sizing)
+      : cdt_(cdt), relocator_(cdt, [this](Vertex_handle v) { return is_in_order(v); }), sizing_(sizing)
   {
     check_coordinates();
     const bool marked = std::any_of(cdt.finite_faces_begin(), cdt.finite_faces_end(),
@@ -91,7 +92,7 @@ public:
   /// Takes the frame away. Afterwards only the triangulation itself may be used.
   void finish()
   {
-    for (const Vertex_handle v : frame_) cdt_.remove(v);
+    for (const Vertex_handle v : frame_) internal::remove_hull_vertex(cdt_, v);
     frame_.clear();
   }
 
@@ -218,13 +219,14 @@ public:
   }
 
   /// Inserts a point in the interior of a constrained edge, which it splits whatever rounding did to it.
-  /// \returns null if the point coincides with an end or a face beside the edge would not keep its orientation.
+  /// \returns null if the point isn't between the ends or a face beside the edge would not keep its orientation.
   Vertex_handle insert_on_constraint(const Point& p, Face_handle f, int i)
   {
     const Face_handle n = f->neighbor(i);
     const Vertex_handle a = f->vertex(Cdt::ccw(i)), b = f->vertex(Cdt::cw(i));
     if (!splits(p, f, i) || !splits(p, n, n->index(f))) return Vertex_handle();
     const int chain = chain_of(f, i);
+    if (!is_between(p, a->point(), b->point(), chain)) return Vertex_handle();
     const bool left = f->is_in_domain(), right = n->is_in_domain();
     const Vertex_handle v = cdt_.insert(p, Cdt::EDGE, f, i);
     v->set_constraint(chain);
@@ -325,6 +327,24 @@ public:
   Relocator_2<Cdt>& relocator() { return relocator_; }
 
 private:
+  /// Whether a vertex on a constraint lies between its neighbors there. Faces that keep their orientation don't ensure
+  /// that where edges are a few units in the last place long and rounding bends the constraint.
+  bool is_in_order(Vertex_handle v) const
+  {
+    if (v->constraint() < 0) return true;
+    const auto [a, b] = neighbors_on_constraint(v);
+    return a == Vertex_handle() || is_between(v->point(), a->point(), b->point(), v->constraint());
+  }
+
+  /// Whether p comes between a and b in the direction of a chain; exact.
+  bool is_between(const Point& p, const Point& a, const Point& b, int chain) const
+  {
+    const Point &source = chains_[chain].source->point(), &target = chains_[chain].target->point();
+    const typename Cdt::Geom_traits::Angle_2 angle;
+    const CGAL::Angle before = angle(a, p, source, target);
+    return before != CGAL::RIGHT && before == angle(p, b, source, target);
+  }
+
   using Ends = std::pair<Vertex_handle, Vertex_handle>;
 
   static Ends ends(Vertex_handle a, Vertex_handle b) { return a < b ? Ends(a, b) : Ends(b, a); }

@@ -8,10 +8,15 @@
 #ifndef WEFT_PLANAR_INPUT_GRADING_2_H
 #define WEFT_PLANAR_INPUT_GRADING_2_H
 
+#include <weft/planar/remove_hull_vertex_2.h>
+#include <weft/planar/sample_constraints_2.h>
+#include <weft/planar/Triangulation_2.h>
+
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -57,6 +62,7 @@ Size_sources_2<typename Mesh::Point> find_input_details_2(const Mesh& mesh, doub
         sources.add(a->point(), edge_factor * length);
         sources.add(b->point(), edge_factor * length);
       }
+      if (apex->constraint() == free_vertex) continue; // no part of the input
       const double width = 2 * CGAL::to_double(mesh.triangulation().triangle(f).area()) / length;
       const double dx = CGAL::to_double(b->point().x() - a->point().x()),
                    dy = CGAL::to_double(b->point().y() - a->point().y());
@@ -68,6 +74,40 @@ Size_sources_2<typename Mesh::Point> find_input_details_2(const Mesh& mesh, doub
       sources.add(apex->point(), width_factor * width);
     }
   return sources;
+}
+
+/// Makes the targets of a mesh smaller near details of the input finer than the sizing field.
+/// \param sampled the mesh itself or a copy of it whose constraints have been sampled.
+template <class Mesh>
+void set_grading_2(Mesh& mesh, const Mesh& sampled)
+{
+  // Sizes at details, over edge lengths and channel widths there, and their growth with distance. With sizes that leave
+  // all to the details, growth of 0.80 / 0.85 / 0.90 takes 2997 / 2679 / 2424 Steiner points for a fractal shore of
+  // 2020 points, 389 / 381 / 411 for data/gulf.poly and 331 / 317 / 338 for data/plate.poly, with smallest angles of 25
+  // to 26 degrees; CGAL's refinement (20.7 degrees) takes 2814, 513 and 422.
+  constexpr double detail_edge = 1.2, detail_width = 1.2, detail_growth = 0.85;
+  const auto details = find_input_details_2(sampled, detail_edge, detail_width);
+  if (details.points.empty()) return;
+  mesh.set_grading(typename Mesh::Grading(details.points, details.sizes, detail_growth));
+  mesh.renumber();
+}
+
+/// Does so for a Working_mesh_2 whose constraints are bare. They are sampled in a copy.
+/// \param go_on callable, called now and then with the number of vertices; false stops.
+/// \returns whether it was done; constraints that need more than `max_vertices` are left alone.
+template <class Mesh, class Sizing, class Go_on>
+bool grade_input_2(Mesh& mesh, const Sizing& sizing, std::size_t max_vertices, const Go_on& go_on)
+{
+  typename Mesh::Triangulation copy(mesh.triangulation());
+  std::vector<typename Mesh::Vertex_handle> frame; // where the sizing field need not be defined
+  for (const auto v : copy.finite_vertex_handles())
+    if (v->id() >= static_cast<int>(mesh.vertices().size())) frame.push_back(v);
+  for (const auto v : frame) internal::remove_hull_vertex(copy, v);
+  Mesh scratch(copy, sizing);
+  if (!sample_constraints_2(scratch, 1, max_vertices, go_on)) return false;
+  scratch.renumber();
+  set_grading_2(mesh, scratch);
+  return true;
 }
 
 } // namespace weft

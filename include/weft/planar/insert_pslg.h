@@ -10,6 +10,7 @@
 #define WEFT_PLANAR_INSERT_PSLG_H
 
 #include <weft/errors.h>
+#include <weft/internal/counted.h>
 #include <weft/internal/pslg_contacts.h>
 #include <weft/planar/Constraint_markers.h>
 #include <weft/planar/mark_domain.h>
@@ -71,7 +72,7 @@ public:
   using Point = typename K::Point_2;
 
   /// Checks the graph and merges what is equal; contacts between segments are left.
-  explicit Pslg_splitter(const Pslg_2<K>& pslg)
+  explicit Pslg_splitter(const Pslg_2<K>& pslg) : first_number_(pslg.first_number)
   {
     take_points(pslg);
     take_segments(pslg);
@@ -102,13 +103,19 @@ private:
   {
     if (pslg.points.empty()) throw Domain_error("the input has no points", {}, {});
     for (std::size_t i = 0; i < pslg.points.size(); ++i) {
-      require_finite(pslg.points[i], "point " + std::to_string(i), {i});
+      require_finite(pslg.points[i], "point " + numbered(i) + ",", {i});
       point_of.push_back(add_point(pslg.points[i]));
     }
     for (std::size_t i = 0; i < pslg.holes.size(); ++i)
-      require_finite(pslg.holes[i], "the point of hole " + std::to_string(i), {});
+      require_finite(pslg.holes[i], "the point of hole " + numbered(i) + ",", {});
     for (std::size_t i = 0; i < pslg.regions.size(); ++i)
-      require_finite(pslg.regions[i].point, "the point of region " + std::to_string(i), {});
+      require_finite(pslg.regions[i].point, "the point of region " + numbered(i) + ",", {});
+  }
+
+  /// "5, counted from 1".
+  std::string numbered(std::size_t i) const
+  {
+    return std::to_string(i + first_number_) + ", counted from " + std::to_string(first_number_);
   }
 
   static void require_finite(const Point& p, const std::string& name, std::vector<std::size_t> vertices)
@@ -131,13 +138,13 @@ private:
     for (std::size_t s = 0; s < pslg.segments.size(); ++s) {
       for (const std::size_t end : pslg.segments[s])
         if (end >= point_of.size())
-          throw Domain_error("segment " + std::to_string(s) + " refers to point " + std::to_string(end) +
+          throw Domain_error("segment " + numbered(s) + ", refers to point " + std::to_string(end + first_number_) +
                                  ", which doesn't exist",
                              {}, {s});
       const Index_pair ends = {point_of[pslg.segments[s][0]], point_of[pslg.segments[s][1]]};
       if (ends[0] == ends[1])
-        throw Domain_error("segment " + std::to_string(s) + " has length zero",
-                           {pslg.segments[s][0], pslg.segments[s][1]}, {s});
+        throw Domain_error("segment " + numbered(s) + ", has length zero", {pslg.segments[s][0], pslg.segments[s][1]},
+                           {s});
       segments.push_back(ends);
       input_segment.push_back(s);
     }
@@ -177,8 +184,9 @@ private:
     if (pairs.empty()) return;
     const std::size_t s = input_segment[pairs[0][0]], t = input_segment[pairs[0][1]];
     std::string more;
-    if (pairs.size() > 1) more = " (and " + std::to_string(pairs.size() - 1) + " other pairs)";
-    throw Domain_error("segments " + std::to_string(s) + " and " + std::to_string(t) + " " + verb + more, {}, {s, t});
+    if (pairs.size() > 1) more = " (and " + counted(pairs.size() - 1, "other pair", "other pairs") + ")";
+    throw Domain_error("segments " + std::to_string(s + first_number_) + " and " + numbered(t) + ", " + verb + more, {},
+                       {s, t});
   }
 
   /// Splits every segment at the points that lie on it and at its rounded crossings.
@@ -236,6 +244,7 @@ private:
   }
 
   std::map<Point, std::size_t> index_;
+  std::size_t first_number_;
 };
 
 /// Refuses a triangulation whose constraints enclose nothing, naming the loose ends.

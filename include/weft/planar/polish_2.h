@@ -63,6 +63,22 @@ public:
     return moved;
   }
 
+  /// Passes until one moves nothing.
+  /// \param go_on callable without arguments, called before every pass; false stops.
+  /// \returns the number of moves.
+  template <class Go_on>
+  std::size_t run(double bound, int most_passes, const Go_on& go_on)
+  {
+    reset();
+    std::size_t moved = 0;
+    for (int i = 0; i < most_passes && go_on(); ++i) {
+      const std::size_t n = pass(bound);
+      moved += n;
+      if (n == 0) break;
+    }
+    return moved;
+  }
+
   std::size_t flips() const { return flips_; }
 
   /// What a triangle costs: 0 while its angles lie within [50, 80] degrees, 1 at 37 or 94 degrees, without bound

@@ -40,9 +40,9 @@ public:
   static constexpr double near_goal = 1.6;
 
   /// \param min_angle smallest angle asked for, in degrees; 0 for none.
-  Batch_refiner_2(Mesh& mesh, double min_angle)
-      : mesh_(mesh), max_cosine_(min_angle > 0 ? std::cos(min_angle * std::acos(-1.0) / 180) : 2)
-  {}
+  Batch_refiner_2(Mesh& mesh, double min_angle) : mesh_(mesh) { set_min_angle(min_angle); }
+
+  void set_min_angle(double degrees) { max_cosine_ = degrees > 0 ? std::cos(degrees * std::acos(-1.0) / 180) : 2; }
 
   /// Counts elements that violate a criterion and remembers them, worst first, for `refine()`.
   std::size_t find_bad()
@@ -298,7 +298,7 @@ private:
   static constexpr std::size_t most_steps = 10000; // of a walk, in case rounding makes it circle
 
   Mesh& mesh_;
-  double max_cosine_;
+  double max_cosine_ = 2;
   double largest_ratio_ = 0;
   std::size_t oversized_ = 0;
   std::vector<Bad> bad_;

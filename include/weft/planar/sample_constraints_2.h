@@ -7,9 +7,12 @@
 #ifndef WEFT_PLANAR_SAMPLE_CONSTRAINTS_2_H
 #define WEFT_PLANAR_SAMPLE_CONSTRAINTS_2_H
 
+#include <CGAL/number_utils.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace weft {
@@ -50,32 +53,76 @@ std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Siz
   return cuts;
 }
 
-/// Inserts Steiner points on all constraints of a Working_mesh_2.
+namespace internal {
+
+/// Inserts points on one chain. Of many points the middle one comes first, then those of each half in the same way:
+/// from end to end, each would turn over the triangles of all points across, in quadratic time. Few go from end to end.
+/// \param cuts parameters of the points along the chain, increasing.
+/// \param go_on callable without arguments, called for every point; false stops.
+template <class Mesh, class Chain, class Go_on>
+bool insert_cuts(Mesh& mesh, const Chain& chain, const std::vector<double>& cuts, const Go_on& go_on)
+{
+  using Triangulation = typename Mesh::Triangulation;
+  using Vertex_handle = typename Mesh::Vertex_handle;
+  struct Piece
+  {
+    Vertex_handle source, target;
+    std::size_t first, last; // cuts between the two
+  };
+  constexpr std::size_t most_in_a_row = 256;
+  const auto a = chain.source->point(), b = chain.target->point();
+  std::vector<Piece> pieces{{chain.source, chain.target, 0, cuts.size()}};
+  while (!pieces.empty()) {
+    const Piece piece = pieces.back();
+    pieces.pop_back();
+    if (piece.first == piece.last) continue;
+    if (!go_on()) return false;
+    const std::size_t left = piece.last - piece.first,
+                      middle = left > most_in_a_row ? piece.first + left / 2 : piece.first;
+    const double t = cuts[middle];
+    const typename Mesh::Point p(a.x() + t * (b.x() - a.x()), a.y() + t * (b.y() - a.y()));
+    typename Triangulation::Face_handle f;
+    int i;
+    if (!mesh.triangulation().is_edge(piece.source, piece.target, f, i)) continue;
+    const Vertex_handle v = mesh.insert_on_constraint(p, f, i);
+    if (v == Vertex_handle()) continue; // at the end of resolution: there is no place for the others either
+    pieces.push_back({v, piece.target, middle + 1, piece.last});
+    pieces.push_back({piece.source, v, piece.first, middle});
+  }
+  return true;
+}
+
+} // namespace internal
+
+/// Inserts Steiner points on all constraints of a Working_mesh_2, or none if that takes more than `max_vertices`.
 /// \param wanted metric length of a piece to aim at; none is longer than 1.
-/// \param go_on callable, called for every constraint with the number of vertices; false stops.
+/// \param go_on callable, called now and then with the number of vertices; false stops.
 /// \returns whether all constraints were done.
 template <class Mesh, class Go_on>
 bool sample_constraints_2(Mesh& mesh, double wanted, std::size_t max_vertices, const Go_on& go_on)
 {
-  using Triangulation = typename Mesh::Triangulation;
-  Triangulation& cdt = mesh.triangulation();
-  const auto size = [&mesh](const typename Mesh::Point& p) { return mesh.target(p); };
+  const auto& cdt = mesh.triangulation();
+  constexpr std::size_t seldom = 4096;
+  std::size_t steps = 0;
+  bool goes_on = go_on(cdt.number_of_vertices());
+  const auto step = [&] {
+    if (++steps % seldom == 0) goes_on = goes_on && go_on(cdt.number_of_vertices());
+    return goes_on;
+  };
+  // Without bounds once the run is to stop, so that measuring ends at once.
+  const auto size = [&](const typename Mesh::Point& p) {
+    return step() ? mesh.target(p) : std::numeric_limits<double>::infinity();
+  };
+  const std::size_t n = cdt.number_of_vertices();
+  std::size_t room = max_vertices > n ? max_vertices - n : 0;
+  std::vector<std::vector<double>> cuts;
   for (const auto& chain : mesh.chains()) {
-    const std::size_t n = cdt.number_of_vertices();
-    if (!go_on(n)) return false;
-    const auto a = chain.source->point(), b = chain.target->point();
-    const std::size_t room = max_vertices > n ? max_vertices - n : 0;
-    const std::vector<double> cuts = equal_metric_parts(a, b, size, wanted, room);
-    if (cuts.size() > room) return false;
-    auto last = chain.source;
-    for (const double t : cuts) {
-      typename Triangulation::Face_handle f;
-      int i;
-      const typename Mesh::Point p(a.x() + t * (b.x() - a.x()), a.y() + t * (b.y() - a.y()));
-      if (!cdt.is_edge(last, chain.target, f, i)) break;
-      if (const auto v = mesh.insert_on_constraint(p, f, i); v != typename Mesh::Vertex_handle()) last = v;
-    }
+    cuts.push_back(equal_metric_parts(chain.source->point(), chain.target->point(), size, wanted, room));
+    if (!goes_on || cuts.back().size() > room) return false;
+    room -= cuts.back().size();
   }
+  for (std::size_t i = 0; i < cuts.size(); ++i)
+    if (!internal::insert_cuts(mesh, mesh.chains()[i], cuts[i], step)) return false;
   return true;
 }
 

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -49,7 +50,12 @@ public:
   using Vertex_handle = typename Cdt::Vertex_handle;
   using Face_handle = typename Cdt::Face_handle;
 
-  explicit Relocator_2(Cdt& cdt) : cdt_(cdt) {}
+  /// \param may_stand says whether a vertex that has been moved may stay where it is as far as its neighbors allow,
+  /// beyond the orientation of its faces, which is always asked for; nothing more if empty. It must hold everywhere
+  /// at the start.
+  explicit Relocator_2(Cdt& cdt, std::function<bool(Vertex_handle)> may_stand = {})
+      : cdt_(cdt), may_stand_(std::move(may_stand))
+  {}
 
   /// Moves `vertices[i]` to `targets[i]`. Vertices on constraints must have targets on them. Vertices on the convex
   /// hull stay where they are. Linear in the number of faces around the vertices, plus the flips.
@@ -64,7 +70,7 @@ public:
       old_[i] = vertices[i]->point();
       if (state_[vertices[i]->id()] >= 0) vertices[i]->set_point(targets[i]);
     }
-    put_back_inverted();
+    put_back_misplaced(vertices);
     counts.flips += restore_delaunay();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       int& state = state_[vertices[i]->id()];
@@ -84,7 +90,7 @@ public:
   {
     const Point old = v->point();
     v->set_point(target);
-    if (!is_star_valid(v)) {
+    if (!is_star_valid(v) || !may_stand(v)) {
       v->set_point(old);
       return false;
     }
@@ -112,6 +118,15 @@ public:
     do
       for (int i = 0; i < 3; ++i) stack_.emplace_back(face, i);
     while (++face != done);
+    return flip_stacked();
+  }
+
+  /// The same for every edge of some faces.
+  std::size_t restore_delaunay_of(const std::vector<Face_handle>& faces)
+  {
+    stack_.clear();
+    for (const Face_handle f : faces)
+      for (int i = 0; i < 3; ++i) stack_.emplace_back(f, i);
     return flip_stacked();
   }
 
@@ -183,27 +198,45 @@ private:
     return v->id() >= 0 && v->id() < static_cast<int>(state_.size()) && state_[v->id()] >= 0;
   }
 
-  /// Puts the moved vertices of inverted faces back, until no face is inverted. Ends: all put back is valid.
-  void put_back_inverted()
+  bool may_stand(Vertex_handle v) const { return !may_stand_ || may_stand_(v); }
+
+  /// Puts moved vertices back until no face is inverted and all may stand where they are. Ends: all put back is valid.
+  void put_back_misplaced(const std::vector<Vertex_handle>& vertices)
   {
     std::vector<Face_handle> suspects;
     for (const Face_handle f : faces_)
       if (!is_positive(f)) suspects.push_back(f);
+    for (bool again = true; again;) {
+      put_back_inverted(suspects);
+      again = false;
+      if (!may_stand_) return;
+      for (const Vertex_handle v : vertices)
+        if (has_moved(v) && !may_stand_(v)) {
+          put_back(v, suspects);
+          again = true;
+        }
+    }
+  }
+
+  void put_back_inverted(std::vector<Face_handle>& suspects)
+  {
     while (!suspects.empty()) {
       const Face_handle f = suspects.back();
       suspects.pop_back();
       if (is_positive(f)) continue;
-      for (int i = 0; i < 3; ++i) {
-        const Vertex_handle v = f->vertex(i);
-        if (!has_moved(v)) continue;
-        v->set_point(old_[state_[v->id()]]);
-        state_[v->id()] = deferred;
-        auto face = cdt_.incident_faces(v);
-        const auto done = face;
-        do suspects.push_back(face);
-        while (++face != done);
-      }
+      for (int i = 0; i < 3; ++i)
+        if (has_moved(f->vertex(i))) put_back(f->vertex(i), suspects);
     }
+  }
+
+  void put_back(Vertex_handle v, std::vector<Face_handle>& suspects)
+  {
+    v->set_point(old_[state_[v->id()]]);
+    state_[v->id()] = deferred;
+    auto face = cdt_.incident_faces(v);
+    const auto done = face;
+    do suspects.push_back(face);
+    while (++face != done);
   }
 
   std::size_t restore_delaunay()
@@ -254,6 +287,7 @@ private:
   }
 
   Cdt& cdt_;
+  std::function<bool(Vertex_handle)> may_stand_;
   std::vector<Face_handle> faces_;
   std::vector<Point> old_;
   std::vector<int> state_; // by vertex id: position in the list of moves, or one of the constants

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Reads surfaces from OFF and Wavefront OBJ files, text only, line by line. Colours, normals and texture coordinates
+// are passed over.
+
+#ifndef WEFT_IO_INTERNAL_SURFACE_TEXT_FORMATS_H
+#define WEFT_IO_INTERNAL_SURFACE_TEXT_FORMATS_H
+
+#include <weft/IO/internal/Line_reader.h>
+#include <weft/spatial/Polygon_soup_3.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace weft {
+namespace internal {
+
+/// The three coordinates that come next.
+template <class Point>
+Point read_coordinates(Line_reader& in)
+{
+  const double x = in.number("x"), y = in.number("y"), z = in.number("z");
+  return Point(x, y, z);
+}
+
+/// Goes to the line with the numbers of an OFF file, past the optional keyword: OFF behind prefixes that announce more
+/// values for each vertex.
+inline void read_off_header(Line_reader& in)
+{
+  in.require_line("the header");
+  Line_reader rest = in;
+  const std::string_view keyword = rest.word("the header");
+  const std::size_t off = keyword.find("OFF");
+  if (off == std::string_view::npos) return;
+  if (keyword.substr(0, off).find_first_not_of("STCN") != std::string_view::npos || off + 3 != keyword.size())
+    in.fail("only three coordinates are supported, not '" + in.printable(keyword) + "'");
+  in.word("the header");
+  if (in.at_end_of_line()) in.require_line("the numbers of points and facets");
+}
+
+/// Reads an OFF file.
+template <class K>
+Polygon_soup_3<K> read_off_surface(const std::string& filename)
+{
+  Line_reader in(filename);
+  read_off_header(in);
+  const std::size_t number_of_points = in.count("the number of points", 6);
+  const std::size_t number_of_facets = in.count("the number of facets", 2);
+
+  Polygon_soup_3<K> soup;
+  soup.points.reserve(number_of_points);
+  for (std::size_t i = 0; i < number_of_points; ++i) {
+    in.require_line("point " + std::to_string(i) + " of " + std::to_string(number_of_points));
+    soup.points.push_back(read_coordinates<typename K::Point_3>(in));
+  }
+  soup.polygons.reserve(number_of_facets);
+  for (std::size_t f = 0; f < number_of_facets; ++f) {
+    in.require_line("facet " + std::to_string(f) + " of " + std::to_string(number_of_facets));
+    const long long corners = in.bounded_count("the number of corners");
+    soup.polygons.emplace_back();
+    for (long long i = 0; i < corners; ++i) {
+      const long long v = in.bounded_count("a corner");
+      if (static_cast<std::size_t>(v) >= number_of_points) in.fail("there is no point " + std::to_string(v));
+      soup.polygons.back().push_back(static_cast<std::size_t>(v));
+    }
+  }
+  in.require_end_of_file(); // a facet too many would be lost without a word
+  return soup;
+}
+
+/// Reads the points (v) and faces (f) of an OBJ file.
+template <class K>
+Polygon_soup_3<K> read_obj_surface(const std::string& filename)
+{
+  Line_reader in(filename);
+  Polygon_soup_3<K> soup;
+  while (in.next_line()) {
+    const std::string_view keyword = in.word("a keyword");
+    if (keyword == "v") soup.points.push_back(read_coordinates<typename K::Point_3>(in));
+    if (keyword != "f") continue; // the format has some fifty more keywords
+    soup.polygons.emplace_back();
+    do {
+      const std::string_view text = in.word("a corner");
+      const long long number = in.parse<long long>(text.substr(0, text.find('/')), "a corner");
+      const long long n = static_cast<long long>(soup.points.size());
+      if (number == 0 || number > n || number < -n) in.fail("there is no point " + std::to_string(number));
+      soup.polygons.back().push_back(static_cast<std::size_t>(number > 0 ? number - 1 : n + number));
+    } while (!in.at_end_of_line());
+  }
+  return soup;
+}
+
+} // namespace internal
+} // namespace weft
+
+#endif // WEFT_IO_INTERNAL_SURFACE_TEXT_FORMATS_H

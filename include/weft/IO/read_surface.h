@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Reads a surface from a file; the extension says in which format.
+
+#ifndef WEFT_IO_READ_SURFACE_H
+#define WEFT_IO_READ_SURFACE_H
+
+#include <weft/IO/internal/extension.h>
+#include <weft/IO/internal/surface_ply.h>
+#include <weft/IO/internal/surface_stl.h>
+#include <weft/IO/internal/surface_text_formats.h>
+#include <weft/spatial/Polygon_soup_3.h>
+
+#include <CGAL/number_utils.h>
+
+#include <cstddef>
+#include <string>
+
+namespace weft {
+namespace internal {
+
+template <class K>
+Polygon_soup_3<K> read_any_surface(const std::string& filename)
+{
+  const std::string type = extension(filename);
+  if (type == "off") return read_off_surface<K>(filename);
+  if (type == "obj") return read_obj_surface<K>(filename);
+  if (type == "stl") return read_stl_surface<K>(filename);
+  if (type == "ply") return read_ply_surface<K>(filename);
+  throw File_error(filename, 0, "unknown extension; known are .off, .obj, .stl and .ply");
+}
+
+} // namespace internal
+
+namespace IO {
+
+/// Reads a surface from a .off or .obj file (text), or a .stl or .ply file (text or binary). Points and facets are
+/// numbered as in the file; only in .stl files, where every facet has its own corners, equal points become one.
+/// Whether the facets form a surface is checked by `piecewise_smooth_complex()`, not here.
+/// \tparam K a CGAL kernel.
+/// \throws File_error if the extension is unknown or the file is missing, cut or malformed, has no facets, or has
+///         coordinates that aren't finite; with the line where that is known.
+template <class K>
+Polygon_soup_3<K> read_surface(const std::string& filename)
+{
+  Polygon_soup_3<K> soup = weft::internal::read_any_surface<K>(filename);
+  if (soup.polygons.empty()) throw File_error(filename, 0, "there are no facets in the file");
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    const auto& p = soup.points[v];
+    if (!CGAL::is_finite(p.x()) || !CGAL::is_finite(p.y()) || !CGAL::is_finite(p.z()))
+      throw File_error(filename, 0, "point " + std::to_string(v) + " has coordinates that aren't finite");
+  }
+  return soup;
+}
+
+} // namespace IO
+} // namespace weft
+
+#endif // WEFT_IO_READ_SURFACE_H

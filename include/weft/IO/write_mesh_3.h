@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Writes a spatial mesh to a file; the extension says in which format.
+
+#ifndef WEFT_IO_WRITE_MESH_3_H
+#define WEFT_IO_WRITE_MESH_3_H
+
+#include <weft/errors.h>
+#include <weft/IO/gmsh_3.h>
+#include <weft/IO/internal/extension.h>
+#include <weft/IO/medit_3.h>
+#include <weft/IO/off_3.h>
+#include <weft/IO/stl.h>
+#include <weft/IO/vtu_3.h>
+
+#include <string>
+
+namespace weft {
+namespace IO {
+
+/// Whether `write_mesh_3()` knows the extension of the file: .mesh, .vtu, .msh, .off or .stl.
+inline bool is_mesh_3_filename(const std::string& filename)
+{
+  const std::string e = internal::extension(filename);
+  return e == "mesh" || e == "vtu" || e == "msh" || e == "off" || e == "stl";
+}
+
+/// Writes a mesh as .mesh (Medit), .vtu (VTK) or .msh (Gmsh 4.1) with all tags, or its boundary as .off or .stl.
+/// \throws File_error if the extension is unknown or the file can't be written.
+template <class K>
+void write_mesh_3(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+{
+  const std::string extension = internal::extension(filename);
+  if (extension == "mesh") return write_medit(filename, mesh);
+  if (extension == "vtu") return write_vtu(filename, mesh);
+  if (extension == "msh") return write_gmsh(filename, mesh);
+  if (extension == "off") return write_off(filename, mesh);
+  if (extension == "stl") return write_stl(filename, mesh);
+  throw File_error(filename, 0, "unknown extension; known are .mesh, .vtu, .msh, .off and .stl");
+}
+
+} // namespace IO
+} // namespace weft
+
+#endif // WEFT_IO_WRITE_MESH_3_H

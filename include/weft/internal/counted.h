@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Numbers of things in sentences.
+
+#ifndef WEFT_INTERNAL_COUNTED_H
+#define WEFT_INTERNAL_COUNTED_H
+
+#include <cstddef>
+#include <string>
+
+namespace weft {
+namespace internal {
+
+/// "1 triangle", "2 triangles".
+inline std::string counted(std::size_t n, const std::string& one, const std::string& many)
+{
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+} // namespace internal
+} // namespace weft
+
+#endif // WEFT_INTERNAL_COUNTED_H

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// START HERE in 3D. `make_mesh_3()` fills the domain behind an oracle with tetrahedra that satisfy size, approximation,
+// shape and topology criteria, by batches of Delaunay refinement (Tournois 2009, sec. 3.2).
+//
+//   const auto surface = weft::IO::read_surface<K>("elephant.off");
+//   const weft::Polyhedral_oracle_3<K> domain(surface, weft::Feature_options{60});
+//   weft::Criteria_3<K> criteria;
+//   criteria.size = 0.1;
+//   const auto [mesh, report] = weft::make_mesh_3(domain, criteria);
+
+#ifndef WEFT_MAKE_MESH_3_H
+#define WEFT_MAKE_MESH_3_H
+
+#include <weft/options.h>
+#include <weft/report.h>
+#include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/Polyhedral_oracle_3.h>
+#include <weft/spatial/Restricted_delaunay_3.h>
+#include <weft/spatial/Spatial_mesher_3.h>
+#include <weft/spatial/extract_mesh_3.h>
+
+namespace weft {
+
+/// Result of `make_mesh_3()`.
+template <class Oracle>
+struct Make_mesh_result_3
+{
+  Restricted_delaunay_3<Oracle> mesh; ///< `tetrahedral_mesh(mesh)` gives arrays, `to_c3t3(mesh)` CGAL's complex
+  Mesh_report_3 report;
+};
+
+/// Meshes the domain behind `oracle`.
+///
+/// Feature vertices become vertices, creases chains of edges, patches triangulated surfaces whose vertices lie on them.
+/// Ends when all criteria hold or when nothing more can be done about those that don't, which the report counts; on
+/// early stops (budgets, time, visitor) the mesh is the Delaunay mesh as it was then.
+/// \param oracle a domain oracle, see Polyhedral_oracle_3.h; has to outlive the result.
+/// \throws Option_error for criteria or options out of range, or if a field of the criteria isn't positive.
+template <class Oracle>
+Make_mesh_result_3<Oracle> make_mesh_3(const Oracle& oracle, const Criteria_3<typename Oracle::Kernel>& criteria,
+                                       const Mesh_options_3& options = Mesh_options_3())
+{
+  criteria.check();
+  options.check();
+  Spatial_mesher_3<Oracle> mesher(oracle, criteria, options);
+  Mesh_report_3 report = mesher.run();
+  return {mesher.take_mesh(), std::move(report)};
+}
+
+} // namespace weft
+
+#endif // WEFT_MAKE_MESH_3_H

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What every element of a spatial mesh has to satisfy (Tournois 2009, sec. 3.2.1.2), and the reasons for which an
+// element is bad.
+
+#ifndef WEFT_SPATIAL_CRITERIA_3_H
+#define WEFT_SPATIAL_CRITERIA_3_H
+
+#include <weft/errors.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace weft {
+
+/// A length that may depend on the place: a constant or any callable, point -> length in the input's units.
+/// Zero stands for "no bound".
+template <class K>
+class Length_field_3
+{
+public:
+  using Point = typename K::Point_3;
+
+  Length_field_3(double constant = 0) : constant_(constant) {} // NOLINT: a number is a field
+  template <class Field, class = std::enable_if_t<std::is_invocable_r_v<double, const Field&, const Point&>>>
+  Length_field_3(Field field) : constant_(-1), field_(std::move(field)) // NOLINT: so is a callable
+  {}
+
+  bool is_constant() const { return !field_; }
+  /// Whether there is a bound at all.
+  explicit operator bool() const { return field_ || constant_ > 0; }
+
+  /// \throws Option_error if the callable returns anything but a positive number.
+  double operator()(const Point& p) const
+  {
+    if (!field_) return constant_;
+    const double value = field_(p);
+    if (!(value > 0) || !std::isfinite(value)) throw Option_error("a field of lengths must return positive numbers");
+    return value;
+  }
+  double constant() const { return constant_; }
+
+private:
+  double constant_;
+  std::function<double(const Point&)> field_;
+};
+
+/// Criteria of `make_mesh_3()`. Everything but the size is optional.
+template <class K>
+struct Criteria_3
+{
+  Length_field_3<K> size;          ///< longest edge, in the input's units
+  Length_field_3<K> approximation; ///< distance of facets and crease edges to the surface, in the input's units
+  double facet_shape = 2;          ///< largest circumradius / shortest edge of a boundary facet; 0: no bound
+  double cell_shape = 2;           ///< largest circumradius / shortest edge of a cell; 0: no bound
+  bool topology = false; ///< the vertices of a boundary facet lie on one patch, those of a crease edge on one crease
+  bool manifold = false; ///< the boundary of the mesh is a 2-manifold
+
+  /// \throws Option_error naming the first criterion out of range.
+  void check() const
+  {
+    const auto require = [](bool holds, const char* what) {
+      if (!holds) throw Option_error(what);
+    };
+    require(!size.is_constant() || (size.constant() > 0 && std::isfinite(size.constant())), "size must be positive");
+    require(!approximation.is_constant() || (approximation.constant() >= 0 && std::isfinite(approximation.constant())),
+            "approximation must be positive, or 0 for none");
+    require(facet_shape == 0 || facet_shape >= 1, "facet_shape must be at least 1, or 0 for none");
+    require(cell_shape == 0 || cell_shape >= 1, "cell_shape must be at least 1, or 0 for none");
+  }
+};
+
+/// Why an element is bad; an element may be bad for several reasons at once, see `Badness_3::reasons`.
+enum Bad_reason_3 : unsigned
+{
+  bad_size = 1,
+  bad_approximation = 2,
+  bad_shape = 4,
+  bad_topology = 8, ///< vertices of several patches or creases
+  bad_disk = 16     ///< an end of it lacks a topological disk of boundary facets or crease edges around itself
+};
+
+/// How bad an element is: the largest ratio of a measure to its bound, above 1 when bad, and all reasons.
+struct Badness_3
+{
+  double ratio = 0;
+  unsigned reasons = 0;
+
+  bool is_bad() const { return reasons != 0; }
+  void add(double r, Bad_reason_3 reason)
+  {
+    if (r > ratio) ratio = r;
+    if (r > 1) reasons |= reason;
+  }
+};
+
+/// Names of the reasons for people, separated by commas.
+inline std::string describe_reasons(unsigned reasons)
+{
+  static const std::pair<unsigned, const char*> names[] = {{bad_size, "size"},
+                                                           {bad_approximation, "approximation"},
+                                                           {bad_shape, "shape"},
+                                                           {bad_topology, "topology"},
+                                                           {bad_disk, "topological disk"}};
+  std::string text;
+  for (const auto& [reason, label] : names)
+    if (reasons & reason) text += (text.empty() ? "" : ", ") + std::string(label);
+  return text;
+}
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_CRITERIA_3_H

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The Delaunay triangulation restricted to a domain (Tournois 2009, sec. 1.1 and 3.2.1.4): cells whose circumcenter
+// lies inside, facets whose Voronoi edge meets the boundary, edges whose Voronoi facet meets a crease, all kept up to
+// date while points are inserted. What refinement asks for again and again is kept with them: circumcenters, and for
+// every facet and edge the farthest point where its dual meets the boundary, which is its Steiner point and the center
+// of its surface Delaunay ball.
+//
+// Circumcenters are rounded to doubles; what is decided exactly is where the segments between the rounded ones meet the
+// boundary. So the labels of any two cells agree with the crossings of the Voronoi edge between them, whatever the
+// shape of the cells.
+
+#ifndef WEFT_SPATIAL_RESTRICTED_DELAUNAY_3_H
+#define WEFT_SPATIAL_RESTRICTED_DELAUNAY_3_H
+
+#include <weft/internal/parallel_for.h>
+#include <weft/spatial/circumcenter_3.h>
+#include <weft/spatial/Conflict_zone_3.h>
+#include <weft/spatial/Crease_tracer_3.h>
+#include <weft/spatial/Feature_incidence_3.h>
+#include <weft/spatial/Triangulation_3.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace weft {
+
+/// A restricted facet of a spatial Delaunay triangulation.
+template <class Triangulation>
+struct Restricted_facet_3
+{
+  typename Triangulation::Cell_handle cell; ///< one of its two cells; null for an unused record
+  int index = 0;                            ///< of the vertex of `cell` opposite to it
+  int patch = 0;                            ///< on which the Steiner point lies
+  int crossings = 0;                        ///< of its Voronoi edge with the boundary
+  bool several = false;                     ///< whether they lie on different patches
+  typename Triangulation::Point steiner;    ///< the farthest of them from the vertices of the facet
+  double squared_radius = 0;                ///< of the surface Delaunay ball around it
+};
+
+/// How often the oracle was asked, and how often it needn't be.
+struct Oracle_counts_3
+{
+  std::size_t segments = 0, locations = 0, skipped = 0;
+};
+
+/// The restricted Delaunay triangulation of a growing set of points.
+///
+/// The triangulation also holds the eight corners of a box so large that their Voronoi cells don't reach the domain;
+/// they have dimension -1. Other vertices have running ids, in the order of insertion.
+/// \tparam Oracle a domain oracle, see Polyhedral_oracle_3.h.
+template <class Oracle_>
+class Restricted_delaunay_3
+{
+public:
+  using Oracle = Oracle_;
+  using Kernel = typename Oracle::Kernel;
+  using Point = typename Kernel::Point_3;
+  using Surface_hit = decltype(std::declval<const Oracle&>().closest(std::declval<const Point&>()));
+  using Triangulation = Mesh_triangulation_3<Kernel>;
+  using Vertex_handle = typename Triangulation::Vertex_handle;
+  using Cell_handle = typename Triangulation::Cell_handle;
+  using Facet = typename Triangulation::Facet;
+  using Zone = Conflict_zone_3<Triangulation>;
+  using Restricted_facet = Restricted_facet_3<Triangulation>;
+  using Crease_edge = Crease_edge_3<Triangulation>;
+
+  /// \param oracle has to live as long as this object.
+  explicit Restricted_delaunay_3(const Oracle& oracle, int threads = 1)
+      : oracle_(&oracle),
+        incidence_(oracle.complex()),
+        threads_(threads),
+        tr_(std::make_unique<Triangulation>()),
+        tracer_(*tr_)
+  {
+    insert_box();
+    for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) {
+      auto points = oracle.crease_points(static_cast<int>(c));
+      if (oracle.crease_is_closed(static_cast<int>(c))) points.push_back(points.front());
+      tracer_.add_crease(std::move(points));
+    }
+  }
+
+  const Oracle& oracle() const { return *oracle_; }
+  const Feature_incidence_3& incidence() const { return incidence_; }
+  const Triangulation& triangulation() const { return *tr_; }
+  const Crease_tracer_3<Triangulation>& creases() const { return tracer_; }
+  const Oracle_counts_3& counts() const { return counts_; }
+
+  /// All vertices but those of the box, by id.
+  const std::vector<Vertex_handle>& vertices() const { return vertices_; }
+
+  /// Records of restricted facets; those with a null cell are unused.
+  const std::vector<Restricted_facet>& facets() const { return facets_; }
+  /// The restricted facet opposite to vertex i of c, or null.
+  const Restricted_facet* facet(Cell_handle c, int i) const
+  {
+    const int record = c->facet_record(i);
+    return record < 0 ? nullptr : &facets_[static_cast<std::size_t>(record)];
+  }
+  /// Whether a restricted facet separates the domain from the outside.
+  bool is_boundary(const Restricted_facet& f) const
+  {
+    return f.cell->subdomain() != f.cell->neighbor(f.index)->subdomain();
+  }
+
+  /// Inserts a point by itself and classifies what that changes, creases at the next `update()`. Returns the vertex
+  /// there, the one that was there before if there was one; null if the point lies outside the box.
+  Vertex_handle insert(const Point& p, const Vertex_location_3& location)
+  {
+    Zone zone;
+    const Cell_handle start = tr_->locate(p, vertices_.empty() ? Cell_handle() : vertices_.back()->cell());
+    const Zone_result result = find_conflict_zone(*tr_, p, start, no_batch, zone);
+    if (result == Zone_result::no_conflict) return tr_->nearest_vertex(p, start);
+    if (result != Zone_result::found) return Vertex_handle();
+    const Vertex_handle v = insert(zone, location);
+    creases_are_stale_ = true;
+    classify();
+    return v;
+  }
+
+  /// Takes a vertex away, to be put back elsewhere with `put_back()` before anything else is done. Until then the cells
+  /// that fill its place aren't classified. Not for vertices on creases, nor for feature vertices.
+  /// \returns those cells.
+  std::vector<Cell_handle> take_away(Vertex_handle v)
+  {
+    std::vector<Cell_handle> star;
+    tr_->incident_cells(v, std::back_inserter(star));
+    for (const Cell_handle c : star)
+      for (int i = 0; i < 4; ++i) {
+        forget_facet(c, i);
+        touch(c->vertex(i));
+      }
+    vertices_[static_cast<std::size_t>(v->id())] = Vertex_handle();
+    std::vector<Cell_handle> filling;
+    tr_->remove_and_give_new_cells(v, std::back_inserter(filling));
+    return filling;
+  }
+
+  /// Puts a vertex back that was taken away: at the point of a zone, under its number, and classifies what changed.
+  /// \param filling as returned by `take_away()`.
+  Vertex_handle put_back(const Zone& zone, const Vertex_location_3& location, int id,
+                         const std::vector<Cell_handle>& filling)
+  {
+    ++batches_;
+    for (const Cell_handle c : zone.cells) c->set_batch(batches_);
+    new_cells_.clear();
+    for (const Cell_handle c : filling)
+      if (c->batch() != batches_) new_cells_.push_back(c);
+    const Vertex_handle v = insert(zone, location, id);
+    update();
+    return v;
+  }
+
+  /// Inserts a point whose conflict zone is known. Zones inserted between two calls of `update()` have to be
+  /// independent, see `find_conflict_zone()`.
+  Vertex_handle insert(const Zone& zone, const Vertex_location_3& location)
+  {
+    vertices_.emplace_back();
+    touched_.push_back(update_number_);
+    return insert(zone, location, static_cast<int>(vertices_.size()) - 1);
+  }
+
+private:
+  Vertex_handle insert(const Zone& zone, const Vertex_location_3& location, int id)
+  {
+    for (const Cell_handle c : zone.cells)
+      for (int i = 0; i < 4; ++i) forget_facet(c, i);
+    const Facet outer = zone.hull.front();
+    const Cell_handle inner = outer.first->neighbor(outer.second);
+    const Vertex_handle v =
+        tr_->insert_in_hole(zone.point, zone.cells.begin(), zone.cells.end(), inner, inner->index(outer.first));
+    v->set_location(location);
+    v->set_id(id);
+    vertices_[static_cast<std::size_t>(id)] = v;
+    for (const Facet& f : zone.hull) {
+      const Cell_handle c = f.first->neighbor(f.second);
+      if (!creases_are_stale_)
+        for (int i = 0; i < 4; ++i) touch(c->vertex(i));
+      new_cells_.push_back(c);
+    }
+    return v;
+  }
+
+public:
+  /// Inserts points one after the other, each near the one before, and classifies only what is there at the end.
+  void insert(const std::vector<Point>& points, const Vertex_location_3& location)
+  {
+    Zone zone;
+    creases_are_stale_ = true;
+    Cell_handle hint = vertices_.empty() ? Cell_handle() : vertices_.back()->cell();
+    for (const Point& p : points) {
+      if (find_conflict_zone(*tr_, p, tr_->locate(p, hint), no_batch, zone) != Zone_result::found) continue;
+      hint = insert(zone, location)->cell();
+      new_cells_.clear(); // some of them don't live to see the end
+    }
+    for (const Cell_handle c : tr_->finite_cell_handles())
+      if (!c->is_classified()) new_cells_.push_back(c);
+    classify();
+  }
+
+  /// Classifies what insertions have changed: cells, facets and crease edges.
+  void update()
+  {
+    if (creases_are_stale_) {
+      tracer_.trace_all();
+      creases_are_stale_ = false;
+    } else {
+      tracer_.update([this](Vertex_handle v) {
+        return v->id() < 0 || touched_[static_cast<std::size_t>(v->id())] == update_number_;
+      });
+    }
+    classify();
+  }
+
+  /// Number of batches so far; whoever claims zones counts it up, since cells remember it.
+  int& batches() { return batches_; }
+  int batches() const { return batches_; }
+
+  /// Cells created before the last call of `update()` and after the one before.
+  const std::vector<Cell_handle>& new_cells() const { return classified_; }
+  /// Numbers of the facet records made by the last call of `update()`.
+  const std::vector<int>& new_facets() const { return new_facets_; }
+
+  /// Whether a cell has a vertex of the box: its circumcenter lies outside of the domain.
+  static bool is_at_box(Cell_handle c)
+  {
+    for (int i = 0; i < 4; ++i)
+      if (c->vertex(i)->location().dimension < 0) return true;
+    return false;
+  }
+
+private:
+  static constexpr int no_batch = -2;
+
+  /// The Voronoi edge of a facet against the boundary.
+  struct Voronoi_edge
+  {
+    Restricted_facet facet;
+    bool sides_differ = false;
+  };
+
+  void insert_box()
+  {
+    const CGAL::Bbox_3 b = oracle_->bbox();
+    const double x = 0.5 * (b.xmin() + b.xmax()), y = 0.5 * (b.ymin() + b.ymax()), z = 0.5 * (b.zmin() + b.zmax());
+    // A point of the domain is at most one diagonal away from any vertex in it, and at least 1.5 from these corners.
+    const double r = 2 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
+    for (int i = 0; i < 8; ++i) tr_->insert(Point(i & 1 ? x + r : x - r, i & 2 ? y + r : y - r, i & 4 ? z + r : z - r));
+  }
+
+  void classify()
+  {
+    compute_circumcenters();
+    cross_boundary();
+    label_cells();
+    record_facets();
+    ++update_number_;
+    new_cells_.clear();
+  }
+
+  void touch(Vertex_handle v)
+  {
+    if (v->id() >= 0) touched_[static_cast<std::size_t>(v->id())] = update_number_;
+  }
+
+  void forget_facet(Cell_handle c, int i)
+  {
+    const int record = c->facet_record(i);
+    if (record < 0) return;
+    const Cell_handle n = c->neighbor(i);
+    n->set_facet_record(n->index(c), -1);
+    c->set_facet_record(i, -1);
+    facets_[static_cast<std::size_t>(record)].cell = Cell_handle();
+    free_facets_.push_back(record);
+  }
+
+  void compute_circumcenters()
+  {
+    internal::parallel_for(new_cells_.size(), threads_, [this](std::size_t k) {
+      const Cell_handle c = new_cells_[k];
+      c->set_circumcenter(circumcenter_3<Kernel>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                                                 c->vertex(3)->point()));
+    });
+  }
+
+  /// Asks the oracle about every new Voronoi edge once.
+  void cross_boundary()
+  {
+    edges_.clear();
+    edge_of_facet_.assign(4 * new_cells_.size(), -1);
+    for (std::size_t k = 0; k < new_cells_.size(); ++k) new_cells_[k]->set_id(static_cast<int>(k));
+    for (std::size_t k = 0; k < new_cells_.size(); ++k)
+      for (int i = 0; i < 4; ++i) {
+        const Cell_handle c = new_cells_[k], other = c->neighbor(i);
+        if (is_facet_at_box(c, i) || edge_of_facet_[4 * k + static_cast<std::size_t>(i)] >= 0) continue;
+        set_edge(c, i, static_cast<int>(edges_.size()));
+        if (!other->is_classified()) set_edge(other, other->index(c), static_cast<int>(edges_.size()));
+        edges_.push_back({});
+        edges_.back().facet.cell = c;
+        edges_.back().facet.index = i;
+      }
+    internal::parallel_for(edges_.size(), threads_, [this](std::size_t k) { cross_boundary(edges_[k]); });
+    counts_.segments += edges_.size();
+  }
+
+  void cross_boundary(Voronoi_edge& e) const
+  {
+    thread_local std::vector<Surface_hit> hits;
+    hits.clear();
+    Restricted_facet& f = e.facet;
+    const Point *p = &f.cell->circumcenter(), *q = &f.cell->neighbor(f.index)->circumcenter();
+    if (*q < *p) std::swap(p, q); // the same answer from either cell
+    e.sides_differ = oracle_->intersect(*p, *q, hits);
+    f.crossings = static_cast<int>(hits.size());
+    const Point& a = f.cell->vertex(f.index == 0 ? 1 : 0)->point();
+    for (const auto& hit : hits) {
+      const double r = CGAL::to_double(CGAL::squared_distance(hit.point, a));
+      f.several |= hit.patch != hits.front().patch;
+      if (r <= f.squared_radius) continue;
+      f.squared_radius = r;
+      f.steiner = hit.point;
+      f.patch = hit.patch;
+    }
+  }
+
+  static bool is_facet_at_box(Cell_handle c, int i)
+  {
+    for (int k = 0; k < 4; ++k)
+      if (k != i && c->vertex(k)->location().dimension < 0) return true;
+    return false;
+  }
+
+  /// A cell lies in the subdomain of a neighbour unless the boundary lies between: from the old cells inwards.
+  void label_cells()
+  {
+    std::vector<Cell_handle>& front = classified_;
+    front.clear();
+    for (const Cell_handle c : new_cells_) {
+      const bool at_box = is_at_box(c);
+      for (int i = 0; i < 4 && !c->is_classified(); ++i)
+        if (at_box || (edge(c, i) && is_old(c->neighbor(i)))) label(c, at_box ? nullptr : edge(c, i), i);
+      if (c->is_classified()) front.push_back(c);
+    }
+    for (std::size_t k = 0; k < front.size(); ++k)
+      for (int i = 0; i < 4; ++i) {
+        const Cell_handle c = front[k], n = c->neighbor(i);
+        if (!edge(c, i) || n->is_classified()) continue;
+        label(n, edge(c, i), n->index(c));
+        front.push_back(n);
+      }
+  }
+
+  /// Labels a cell across its facet i, whose Voronoi edge is given; null: outside.
+  void label(Cell_handle c, const Voronoi_edge* e, int i)
+  {
+    c->set_classified(true);
+    c->set_subdomain(e ? c->neighbor(i)->subdomain() : 0);
+    if (!e || !e->sides_differ) return;
+    c->set_subdomain(oracle_->subdomain(c->circumcenter()));
+    ++counts_.locations;
+  }
+
+  bool is_old(Cell_handle c) const
+  {
+    const auto k = static_cast<std::size_t>(c->id());
+    return c->is_classified() && (c->id() < 0 || k >= new_cells_.size() || new_cells_[k] != c);
+  }
+
+  void set_edge(Cell_handle c, int i, int edge)
+  {
+    edge_of_facet_[4 * static_cast<std::size_t>(c->id()) + static_cast<std::size_t>(i)] = edge;
+  }
+
+  const Voronoi_edge* edge(Cell_handle c, int i) const
+  {
+    const int e = edge_of_facet_[4 * static_cast<std::size_t>(c->id()) + static_cast<std::size_t>(i)];
+    return e < 0 ? nullptr : &edges_[static_cast<std::size_t>(e)];
+  }
+
+  void record_facets()
+  {
+    new_facets_.clear();
+    for (const Voronoi_edge& e : edges_) {
+      if (e.facet.crossings == 0) continue;
+      int record = static_cast<int>(facets_.size());
+      if (free_facets_.empty()) {
+        facets_.push_back(e.facet);
+      } else {
+        record = free_facets_.back();
+        free_facets_.pop_back();
+        facets_[static_cast<std::size_t>(record)] = e.facet;
+      }
+      new_facets_.push_back(record);
+      const Cell_handle c = e.facet.cell, n = c->neighbor(e.facet.index);
+      c->set_facet_record(e.facet.index, record);
+      n->set_facet_record(n->index(c), record);
+    }
+  }
+
+  const Oracle* oracle_;
+  Feature_incidence_3 incidence_;
+  int threads_;
+  std::unique_ptr<Triangulation> tr_; ///< at a fixed place, so that handles survive moves of this object
+  Crease_tracer_3<Triangulation> tracer_;
+  std::vector<Vertex_handle> vertices_;
+  std::vector<int> touched_; ///< by vertex: number of the update before which its star changed last
+  int update_number_ = 0;
+  int batches_ = 0;
+  bool creases_are_stale_ = true; ///< single insertions don't follow them at once
+  std::vector<Cell_handle> new_cells_, classified_;
+  std::vector<Voronoi_edge> edges_;
+  std::vector<int> edge_of_facet_; ///< by new cell and index, the Voronoi edge in `edges_`; -1 where none is needed
+  std::vector<Restricted_facet> facets_;
+  std::vector<int> free_facets_, new_facets_;
+  Oracle_counts_3 counts_;
+};
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_RESTRICTED_DELAUNAY_3_H

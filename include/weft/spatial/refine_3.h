@@ -1,0 +1,538 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Batch refinement of a restricted Delaunay triangulation (Tournois 2009, sec. 3.2.1.4, Alg. 6): collect bad crease
+// edges, facets and cells, choose Steiner points whose conflict zones are independent, worst first and in order of
+// dimension, cells by multiple choice, and insert them together. A Steiner point that encroaches upon the surface
+// Delaunay ball of an element of lower dimension gives way to that element's own.
+
+#ifndef WEFT_SPATIAL_REFINE_3_H
+#define WEFT_SPATIAL_REFINE_3_H
+
+#include <weft/spatial/Conflict_zone_3.h>
+#include <weft/spatial/crease_steiner_point_3.h>
+#include <weft/spatial/measure_badness_3.h>
+#include <weft/spatial/Restricted_delaunay_3.h>
+#include <weft/spatial/topological_disk_3.h>
+
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/Kernel/global_functions.h>
+#include <CGAL/number_utils.h>
+#include <CGAL/property_map.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace weft {
+
+/// What one batch did.
+struct Batch_3
+{
+  std::size_t inserted = 0;
+  std::size_t bad = 0; ///< bad elements before it, as far as they were looked at
+};
+
+/// Refines in batches until nothing is bad.
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Batch_refiner_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Triangulation = typename Restricted::Triangulation;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+  using Zone = typename Restricted::Zone;
+  using Restricted_facet = typename Restricted::Restricted_facet;
+  using Crease_edge = typename Restricted::Crease_edge;
+  using Measure = Badness_measure_3<Restricted>;
+
+  /// \param factor by which the criteria are loosened.
+  /// \param with_cells whether cells are refined, too; else only crease edges and facets.
+  /// \param size_floor no Steiner point is inserted closer than that to a vertex.
+  Batch_refiner_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, double factor, bool with_cells,
+                  double size_floor, unsigned seed)
+      : mesh_(mesh),
+        with_cells_(with_cells),
+        measure_(mesh, criteria, factor),
+        squared_floor_(size_floor * size_floor),
+        random_(seed)
+  {
+    mesh_.update();
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) add_cell(c);
+    for (std::size_t f = 0; f < mesh_.facets().size(); ++f)
+      if (mesh_.facets()[f].cell != Cell_handle()) add_facet(static_cast<int>(f));
+    undecided_.assign(mesh_.vertices().size(), true);
+  }
+
+  ~Batch_refiner_3()
+  {
+    for (const Bad_cell& b : bad_cells_)
+      if (b.cell != Cell_handle()) b.cell->set_bad_index(-1);
+  }
+  Batch_refiner_3(const Batch_refiner_3&) = delete;
+  Batch_refiner_3& operator=(const Batch_refiner_3&) = delete;
+
+  /// One batch of at most `room` vertices. Nothing is inserted when all criteria hold, or where they don't, no Steiner
+  /// point is possible.
+  Batch_3 refine(std::size_t room)
+  {
+    room_ = room;
+    used_ = 0;
+    left_ = 0;
+    batch_ = next_batch_number();
+    Batch_3 result;
+    result.bad += choose_edges();
+    result.bad += choose_facets();
+    if (used_ == 0) result.bad += choose_at_vertices();
+    if (used_ == 0) result.bad += choose_cells();
+    insert_chosen();
+    result.inserted = used_;
+    return used_ == 0 && lower_acute_floor() ? refine(room) : result;
+  }
+
+  std::size_t candidates() const { return candidates_; }
+  std::size_t encroachments() const { return encroachments_; }
+
+private:
+  struct Bad_cell
+  {
+    Cell_handle cell; ///< null once it is gone
+    double ratio;
+    bool is_stuck; ///< no Steiner point is possible
+  };
+  struct Bad_edge
+  {
+    double ratio;
+    const Crease_edge* edge;
+    bool is_needed; ///< see `is_left()`
+  };
+  struct Bad_facet
+  {
+    int record;
+    double ratio;
+    unsigned serial; ///< of the facet, since records are used again
+    bool is_free;    ///< only sizes and distances are at stake
+    bool is_needed;  ///< see `is_left()`
+    bool is_stuck;
+  };
+  struct Chosen
+  {
+    Zone zone;
+    Vertex_location_3 location;
+  };
+
+  int next_batch_number() const
+  {
+    // Numbers only have to differ from those that cells remember; vertices grow with every batch that does anything.
+    return ++mesh_.batches();
+  }
+
+  // ---- what is bad
+
+  void add_cell(Cell_handle c)
+  {
+    c->set_bad_index(-1);
+    if (!with_cells_ || c->subdomain() == 0) return;
+    const Badness_3 badness = measure_.cell(c);
+    if (!badness.is_bad()) return;
+    c->set_bad_index(static_cast<int>(bad_cells_.size()));
+    bad_cells_.push_back({c, badness.ratio, false});
+  }
+
+  void add_facet(int record)
+  {
+    const auto r = static_cast<std::size_t>(record);
+    if (r >= serials_.size()) serials_.resize(r + 1, 0);
+    ++serials_[r];
+    const Badness_3 badness = measure_.facet(mesh_.facets()[r]);
+    if (badness.is_bad())
+      bad_facets_.push_back({record, badness.ratio, serials_[r], (badness.reasons & (bad_topology | bad_disk)) == 0,
+                             is_needed(badness.reasons, mesh_.facets()[r].crossings > 1), false});
+  }
+
+  bool is_alive(const Bad_facet& f) const
+  {
+    const auto r = static_cast<std::size_t>(f.record);
+    return mesh_.facets()[r].cell != Cell_handle() && serials_[r] == f.serial;
+  }
+
+  // ---- choosing
+
+  std::size_t choose_edges()
+  {
+    bad_edges_.clear();
+    for (const Crease_edge& e : mesh_.creases().edges()) {
+      const Badness_3 badness = measure_.crease_edge(e);
+      if (badness.is_bad()) bad_edges_.push_back({badness.ratio, &e, is_needed(badness.reasons, e.is_tangled)});
+    }
+    std::stable_sort(bad_edges_.begin(), bad_edges_.end(),
+                     [](const Bad_edge& a, const Bad_edge& b) { return a.ratio > b.ratio; });
+    for (const Bad_edge& b : bad_edges_) choose(*b.edge, b.is_needed);
+    return bad_edges_.size();
+  }
+
+  std::size_t choose_facets()
+  {
+    bad_facets_.erase(
+        std::remove_if(bad_facets_.begin(), bad_facets_.end(), [this](const Bad_facet& f) { return !is_alive(f); }),
+        bad_facets_.end());
+    // Records are numbered in order of creation, so ties don't depend on memory.
+    std::stable_sort(bad_facets_.begin(), bad_facets_.end(),
+                     [](const Bad_facet& a, const Bad_facet& b) { return a.ratio > b.ratio; });
+    for (Bad_facet& f : bad_facets_)
+      if (!f.is_stuck)
+        f.is_stuck =
+            choose(mesh_.facets()[static_cast<std::size_t>(f.record)], f.is_free, f.is_needed) == Choice::impossible;
+    return bad_facets_.size();
+  }
+
+  /// Topological disks, looked at when no facet is bad: the vertices whose stars changed since they were last seen.
+  std::size_t choose_at_vertices()
+  {
+    std::size_t bad = 0;
+    for (std::size_t i = 0; i < undecided_.size(); ++i) {
+      if (!undecided_[i]) continue;
+      const Vertex_handle v = mesh_.vertices()[i];
+      if (v->location().dimension > 2 || has_topological_disk(mesh_, v)) {
+        undecided_[i] = false;
+        continue;
+      }
+      ++bad;
+      const Restricted_facet* worst = worst_facet_around(v);
+      if (worst) choose(*worst, false, false);
+    }
+    return bad;
+  }
+
+  const Restricted_facet* worst_facet_around(Vertex_handle v)
+  {
+    const Restricted_facet* worst = nullptr;
+    double error = -1;
+    cells_.clear();
+    mesh_.triangulation().incident_cells(v, std::back_inserter(cells_));
+    for (const Cell_handle c : cells_)
+      for (int i = 0; i < 4; ++i) {
+        const Restricted_facet* f = mesh_.facet(c, i);
+        if (!f || c->vertex(i) == v || f->cell != c) continue; // each facet once
+        const double e = measure_.approximation_error(*f);
+        if (e > error) {
+          error = e;
+          worst = f;
+        }
+      }
+    return worst;
+  }
+
+  /// Multiple choice: always the worst of a few random ones.
+  std::size_t choose_cells()
+  {
+    compact_cells();
+    pool_.resize(bad_cells_.size());
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < bad_cells_.size(); ++i)
+      if (!bad_cells_[i].is_stuck) pool_[n++] = static_cast<int>(i);
+    pool_.resize(n);
+    container_.clear();
+    while (used_ < room_) {
+      while (container_.size() < choices && !pool_.empty()) container_.push_back(take_random());
+      if (container_.empty()) break;
+      const auto worst =
+          std::max_element(container_.begin(), container_.end(), [this](int i, int j) { return ratio(i) < ratio(j); });
+      Bad_cell& b = bad_cells_[static_cast<std::size_t>(*worst)];
+      *worst = container_.back();
+      container_.pop_back();
+      if (!is_near_claimed(b.cell)) b.is_stuck = choose(b.cell) == Choice::impossible;
+    }
+    return bad_cells_.size();
+  }
+
+  double ratio(int i) const { return bad_cells_[static_cast<std::size_t>(i)].ratio; }
+
+  int take_random()
+  {
+    const std::size_t i = random_() % pool_.size();
+    const int taken = pool_[i];
+    pool_[i] = pool_.back();
+    pool_.pop_back();
+    return taken;
+  }
+
+  /// A cell whose zone surely or very likely touches a claimed one; looking for the zone would tell no more.
+  bool is_near_claimed(Cell_handle c) const
+  {
+    if (c->batch() == batch_) return true;
+    for (int i = 0; i < 4; ++i)
+      if (c->neighbor(i)->batch() == batch_) return true;
+    return false;
+  }
+
+  void compact_cells()
+  {
+    std::size_t n = 0;
+    for (const Bad_cell& b : bad_cells_) {
+      if (b.cell == Cell_handle()) continue;
+      b.cell->set_bad_index(static_cast<int>(n));
+      bad_cells_[n++] = b;
+    }
+    bad_cells_.resize(n);
+  }
+
+  // ---- acute angles of the input
+
+  /// Whether an element has to be refined whatever the angles beside it. Distances don't count where the Steiner point
+  /// may belong to another part of the surface.
+  static bool is_needed(unsigned reasons, bool is_mixed_up)
+  {
+    return (reasons & bad_size) != 0 || ((reasons & bad_approximation) != 0 && !is_mixed_up);
+  }
+
+  /// Whether to leave an element as it is if that isn't needed: a small one beside an acute edge. See Acute_edges_3.h.
+  bool is_left(const Point& center, double squared_radius)
+  {
+    const double least = acute_floor_ * measure_.size(center);
+    const bool left =
+        squared_radius < least * least && mesh_.oracle().is_at_acute_edge(center, std::sqrt(squared_radius));
+    left_ += left;
+    return left;
+  }
+
+  /// Smaller elements mend what is left at angles that aren't very acute, and only multiply it at others. To be called
+  /// when nothing else can be done; returns whether it is worth going on: while little is left, or much less than
+  /// before.
+  bool lower_acute_floor()
+  {
+    const auto most =
+        (std::max)(static_cast<std::size_t>(0.7 * static_cast<double>(left_before_)), mesh_.vertices().size() / 50);
+    if (left_ == 0 || left_ > most || acute_floor_ < least_acute_floor) return false;
+    left_before_ = left_;
+    acute_floor_ /= 2;
+    return true;
+  }
+
+  // ---- one Steiner point
+
+  enum class Choice
+  {
+    chosen,
+    later,     ///< its zone touches another's, or it is left as it is
+    impossible ///< at the size floor, or out of its own zone by rounding
+  };
+
+  Choice choose(const Crease_edge& e, bool needed)
+  {
+    if (!needed && is_left(e.steiner, e.squared_radius)) return Choice::later;
+    const Point p = crease_steiner_point(mesh_, e);
+    if (nearest_end(e, p) < squared_floor_) return Choice::impossible;
+    const Zone_result result = find(p, mesh_.triangulation().locate(p, e.source->cell()), scratch());
+    return result == Zone_result::found ? accept({1, e.steiner_crease}) : failure(result);
+  }
+
+  static double nearest_end(const Crease_edge& e, const Point& p)
+  {
+    return CGAL::to_double(
+        (std::min)(CGAL::squared_distance(p, e.source->point()), CGAL::squared_distance(p, e.target->point())));
+  }
+
+  /// \param free whether the point may be moved; the topology of a mesh is mended only by the Steiner point itself.
+  Choice choose(const Restricted_facet& f, bool free, bool needed)
+  {
+    if (!needed && is_left(f.steiner, f.squared_radius)) return Choice::later;
+    if (f.squared_radius < (free ? 1 : topology_floor * topology_floor) * squared_floor_) return Choice::impossible;
+    const Point p = free ? steiner_point(f) : f.squared_radius < squared_floor_ ? shaken_steiner_point(f) : f.steiner;
+    Zone_result result = find_near(p, f);
+    if (result == Zone_result::no_conflict && p != f.steiner) result = find_near(f.steiner, f);
+    if (result != Zone_result::found) return failure(result);
+    if (const Crease_edge* e = encroached_edge(chosen_[used_].zone)) {
+      ++encroachments_;
+      return choose(*e, needed);
+    }
+    return accept({2, f.patch});
+  }
+
+  /// The Steiner point of a facet, moved to where the surface bends. A tip that the facet misses by more than the
+  /// bound comes first. Reaches of 0.4 and 0.5 radii: of 0.3 to 0.7 for both, these give the fewest vertices on
+  /// average.
+  Point steiner_point(const Restricted_facet& f) const
+  {
+    const auto [tip, distance] = measure_.farthest_salient_point(f);
+    if (distance > measure_.approximation_bound(tip)) return tip;
+    Point p = f.steiner;
+    const double radius = std::sqrt(f.squared_radius);
+    mesh_.oracle().attract(p, 0.4 * radius, 0.5 * radius, f.patch);
+    return p;
+  }
+
+  /// Below the size floor, where the same failure repeats itself at ever smaller scales: somewhere near.
+  Point shaken_steiner_point(const Restricted_facet& f)
+  {
+    const double step = 0.4 * std::sqrt(f.squared_radius);
+    const auto random = [&] { return step * (2 * (random_() / 4294967295.0) - 1); };
+    const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
+    return mesh_.oracle().project_on_patch(f.steiner + typename Kernel::Vector_3(x, y, z), f.patch).point;
+  }
+
+  Zone_result find_near(const Point& p, const Restricted_facet& f)
+  {
+    const Zone_result result = find(p, f.cell, scratch());
+    return result == Zone_result::no_conflict ? find(p, f.cell->neighbor(f.index), scratch()) : result;
+  }
+
+  Choice choose(Cell_handle c)
+  {
+    const Point& p = c->circumcenter();
+    if (CGAL::to_double(CGAL::squared_distance(p, c->vertex(0)->point())) < squared_floor_) return Choice::impossible;
+    const bool needed = is_needed(measure_.cell(c).reasons, false);
+    if (!needed && is_left(p, CGAL::to_double(CGAL::squared_distance(p, c->vertex(0)->point())))) return Choice::later;
+    Zone& zone = scratch();
+    const Zone_result result = find(p, c, zone);
+    if (result != Zone_result::found) return failure(result);
+    if (const Crease_edge* e = encroached_edge(zone)) {
+      ++encroachments_;
+      return choose(*e, needed);
+    }
+    if (const Restricted_facet* f = encroached_facet(zone)) {
+      ++encroachments_;
+      return choose(*f, true, needed);
+    }
+    return accept({3, c->subdomain()});
+  }
+
+  Zone& scratch()
+  {
+    if (chosen_.size() == used_) chosen_.emplace_back();
+    return chosen_[used_].zone;
+  }
+
+  Zone_result find(const Point& p, Cell_handle start, Zone& zone)
+  {
+    ++candidates_;
+    return find_conflict_zone(mesh_.triangulation(), p, start, batch_, zone);
+  }
+
+  Choice accept(const Vertex_location_3& location)
+  {
+    if (used_ >= room_) return Choice::later;
+    claim(chosen_[used_].zone, batch_);
+    chosen_[used_++].location = location;
+    return Choice::chosen;
+  }
+
+  static Choice failure(Zone_result result)
+  {
+    return result == Zone_result::claimed ? Choice::later : Choice::impossible;
+  }
+
+  /// The facet whose surface Delaunay ball the point of a zone enters deepest; such a ball lies in the circumballs of
+  /// the facet's cells, so one of them is in conflict.
+  const Restricted_facet* encroached_facet(const Zone& zone) const
+  {
+    const Restricted_facet* found = nullptr;
+    double deepest = 0;
+    for (const Cell_handle c : zone.cells)
+      for (int i = 0; i < 4; ++i)
+        if (const Restricted_facet* f = mesh_.facet(c, i)) {
+          const double depth = 1 - CGAL::to_double(CGAL::squared_distance(zone.point, f->steiner)) / f->squared_radius;
+          if (depth > deepest) {
+            deepest = depth;
+            found = f;
+          }
+        }
+    return found;
+  }
+
+  /// The same for crease edges: one of the cells around the edge is in conflict.
+  const Crease_edge* encroached_edge(const Zone& zone) const
+  {
+    if (mesh_.creases().number_of_creases() == 0) return nullptr;
+    const Crease_edge* found = nullptr;
+    double deepest = 0;
+    for (const Cell_handle c : zone.cells)
+      for (int i = 0; i < 3; ++i) {
+        if (!may_end_crease_edge(c->vertex(i))) continue;
+        for (int j = i + 1; j < 4; ++j) {
+          if (!may_end_crease_edge(c->vertex(j))) continue;
+          const Crease_edge* e = mesh_.creases().edge(c->vertex(i), c->vertex(j));
+          if (!e) continue;
+          const double depth = 1 - CGAL::to_double(CGAL::squared_distance(zone.point, e->steiner)) / e->squared_radius;
+          if (depth > deepest) {
+            deepest = depth;
+            found = e;
+          }
+        }
+      }
+    return found;
+  }
+
+  static bool may_end_crease_edge(Vertex_handle v) { return v->location().dimension >= 0; }
+
+  // ---- inserting
+
+  /// Inserts along a space-filling curve: cells made one after the other stand side by side in memory.
+  void insert_chosen()
+  {
+    order_.clear();
+    points_.clear();
+    for (std::size_t k = 0; k < used_; ++k) {
+      order_.push_back(k);
+      points_.push_back(chosen_[k].zone.point);
+    }
+    using Points = typename CGAL::Pointer_property_map<Point>::type;
+    CGAL::hilbert_sort(order_.begin(), order_.end(),
+                       CGAL::Spatial_sort_traits_adapter_3<Kernel, Points>(Points(points_.data())));
+    for (const std::size_t k : order_) {
+      const Chosen& chosen = chosen_[k];
+      for (const Cell_handle c : chosen.zone.cells)
+        if (c->bad_index() >= 0) bad_cells_[static_cast<std::size_t>(c->bad_index())].cell = Cell_handle();
+      mesh_.insert(chosen.zone, chosen.location);
+    }
+    mesh_.update();
+    undecided_.resize(mesh_.vertices().size(), true);
+    for (const Cell_handle c : mesh_.new_cells()) {
+      add_cell(c);
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i)->id() >= 0) undecided_[static_cast<std::size_t>(c->vertex(i)->id())] = true;
+    }
+    for (const int record : mesh_.new_facets()) add_facet(record);
+  }
+
+  /// Part of the size floor down to which the topology is mended. At a sharp edge that nobody marked, whether the disks
+  /// come out right is luck at every scale, so it takes a few more halvings than distances do.
+  static constexpr double topology_floor = 0.1;
+
+  static constexpr double least_acute_floor = 1e-4;
+
+  static constexpr std::size_t choices = 20; // Tournois 2009, sec. 3.2.1.4
+
+  Restricted& mesh_;
+  bool with_cells_;
+  Measure measure_;
+  double squared_floor_;
+  std::mt19937 random_;
+  std::vector<Bad_cell> bad_cells_;
+  std::vector<Bad_facet> bad_facets_;
+  std::vector<Bad_edge> bad_edges_;
+  std::vector<unsigned> serials_; ///< by facet record, how often it was made
+  std::vector<char> undecided_;   ///< by vertex, whether its topological disk has to be looked at
+  std::vector<int> pool_, container_;
+  std::vector<Cell_handle> cells_;
+  std::vector<Chosen> chosen_;
+  std::vector<std::size_t> order_;
+  std::vector<Point> points_;
+  std::size_t used_ = 0, room_ = 0;
+  double acute_floor_ = 0.125; ///< part of the size down to which elements beside acute edges are refined
+  std::size_t left_ = 0;       ///< elements that the batch has left because of it
+  std::size_t left_before_ = std::size_t(1) << 40; ///< the same before it was lowered last
+  int batch_ = 0;
+  std::size_t candidates_ = 0, encroachments_ = 0;
+};
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_REFINE_3_H

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fills the report of a spatial mesher: every element is measured once more against the criteria as they were asked.
+
+#ifndef WEFT_SPATIAL_REPORT_3_H
+#define WEFT_SPATIAL_REPORT_3_H
+
+#include <weft/report.h>
+#include <weft/spatial/extract_mesh_3.h>
+#include <weft/spatial/measure_badness_3.h>
+#include <weft/spatial/quality_3.h>
+#include <weft/spatial/Restricted_delaunay_3.h>
+#include <weft/spatial/topological_disk_3.h>
+#include <weft/spatial/validate_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace weft {
+namespace internal {
+
+/// Counts an element with the given Steiner point if it is bad.
+template <class Point, class Oracle>
+void count_bad(const Badness_3& badness, const Point& center, double squared_radius, double squared_floor,
+               const Oracle& oracle, Unsatisfied_3& count)
+{
+  if (!badness.is_bad()) return;
+  ++count.elements;
+  count.size += (badness.reasons & bad_size) != 0;
+  count.approximation += (badness.reasons & bad_approximation) != 0;
+  count.shape += (badness.reasons & bad_shape) != 0;
+  count.topology += (badness.reasons & bad_topology) != 0;
+  count.disk += (badness.reasons & bad_disk) != 0;
+  count.at_floor += squared_radius < squared_floor;
+  count.at_acute_edge += oracle.is_at_acute_edge(center, std::sqrt(squared_radius));
+}
+
+template <class Restricted, class Kernel>
+void count_bad_elements(const Restricted& mesh, const Criteria_3<Kernel>& criteria, double size_floor,
+                        Mesh_report_3& report)
+{
+  const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+  const double floor = size_floor * size_floor;
+  for (const auto& e : mesh.creases().edges())
+    count_bad(measure.crease_edge(e), e.steiner, e.squared_radius, floor, mesh.oracle(), report.bad_edges);
+  for (const auto& f : mesh.facets())
+    if (f.cell != typename Restricted::Cell_handle())
+      count_bad(measure.facet(f), f.steiner, f.squared_radius, floor, mesh.oracle(), report.bad_facets);
+  for (const auto c : mesh.triangulation().finite_cell_handles())
+    if (c->subdomain() != 0)
+      count_bad(measure.cell(c), c->circumcenter(),
+                CGAL::to_double(CGAL::squared_distance(c->circumcenter(), c->vertex(0)->point())), floor, mesh.oracle(),
+                report.bad_cells);
+  for (const auto v : mesh.vertices())
+    if (v->location().dimension <= 2) report.bad_vertices += !has_topological_disk(mesh, v);
+}
+
+template <class Restricted>
+std::size_t count_bare_patches(const Restricted& mesh)
+{
+  std::vector<char> is_bare(static_cast<std::size_t>(mesh.oracle().number_of_patches()), true);
+  for (const auto& f : mesh.facets())
+    if (f.cell != typename Restricted::Cell_handle() && mesh.is_boundary(f))
+      is_bare[static_cast<std::size_t>(f.patch)] = false;
+  return static_cast<std::size_t>(std::count(is_bare.begin(), is_bare.end(), true));
+}
+
+} // namespace internal
+
+/// Counts, worst elements and criteria of a mesh into `report`. Linear.
+template <class Restricted, class Kernel>
+void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteria, double size_floor,
+                 Mesh_report_3& report)
+{
+  const auto mesh = tetrahedral_mesh(restricted);
+  report.vertices = mesh.points.size();
+  for (const auto& at : mesh.locations)
+    ++(at.dimension == 0   ? report.corner_vertices
+       : at.dimension == 1 ? report.crease_vertices
+       : at.dimension == 2 ? report.patch_vertices
+                           : report.interior_vertices);
+  const Quality_3 quality = measure_quality_3(mesh);
+  report.smallest_dihedral = quality.smallest_dihedral.degrees;
+  report.largest_dihedral = quality.largest_dihedral.degrees;
+  report.largest_facet_shape = quality.largest_facet_ratio;
+  report.largest_cell_shape = quality.largest_radius_edge_ratio;
+  report.cells = mesh.cells.size();
+  report.facets = mesh.facets.size();
+  report.crease_edges = mesh.edges.size();
+  internal::count_bad_elements(restricted, criteria, size_floor, report);
+  report.bare_patches = internal::count_bare_patches(restricted);
+  // Where every vertex has its disk of facets, all of them between inside and outside, the boundary is a manifold.
+  const bool clean = report.bad_vertices == 0 && report.bad_facets.disk == 0 && !mesh.cells.empty();
+  report.manifold = clean || (!mesh.cells.empty() && check_manifold_3(mesh).ok());
+  if (report.stop_reason == Stop_reason::criteria_met && report.bad() > 0) report.stop_reason = Stop_reason::exhausted;
+  report.segment_queries = restricted.counts().segments;
+  report.location_queries = restricted.counts().locations;
+  report.skipped_queries = restricted.counts().skipped;
+}
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_REPORT_3_H

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The topological disk condition (Tournois 2009, sec. 3.2.1.4): around a vertex on the boundary the restricted facets
+// form one umbrella.
+
+#ifndef WEFT_SPATIAL_TOPOLOGICAL_DISK_3_H
+#define WEFT_SPATIAL_TOPOLOGICAL_DISK_3_H
+
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace weft {
+
+/// Whether edges, given by their ends, form exactly one cycle. Quadratic in their number, which is small.
+template <class Vertex>
+bool is_one_cycle(std::vector<std::pair<Vertex, Vertex>>& edges)
+{
+  if (edges.size() < 3) return false;
+  const Vertex first = edges[0].first;
+  Vertex at = edges[0].second;
+  for (std::size_t k = 1; k < edges.size(); ++k) {
+    std::size_t next = k;
+    while (next < edges.size() && edges[next].first != at && edges[next].second != at) ++next;
+    if (next == edges.size() || at == first) return false; // a dead end, or closed too soon
+    std::swap(edges[k], edges[next]);
+    at = edges[k].first == at ? edges[k].second : edges[k].first;
+  }
+  return at == first;
+}
+
+/// Whether the restricted facets around a vertex form one umbrella.
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+bool has_topological_disk(const Restricted& mesh, typename Restricted::Vertex_handle v)
+{
+  using Vertex_handle = typename Restricted::Vertex_handle;
+  thread_local std::vector<typename Restricted::Cell_handle> cells;
+  thread_local std::vector<std::pair<Vertex_handle, Vertex_handle>> link;
+  cells.clear();
+  link.clear();
+  mesh.triangulation().incident_cells(v, std::back_inserter(cells));
+  for (const auto c : cells)
+    for (int i = 0; i < 4; ++i) {
+      if (c->vertex(i) == v) continue;
+      const auto* f = mesh.facet(c, i);
+      if (!f || f->cell != c) continue; // each facet once
+      Vertex_handle ends[2];
+      int n = 0;
+      for (int k = 0; k < 4; ++k)
+        if (k != i && c->vertex(k) != v) ends[n++] = c->vertex(k);
+      link.emplace_back(ends[0], ends[1]);
+    }
+  return is_one_cycle(link);
+}
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_TOPOLOGICAL_DISK_3_H

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Properties of the program mesh_3 as a user sees it: exit statuses, what it says and where, and which files are there
+// afterwards. The program is run for each of them in an empty folder.
+
+#include "program_fixture.h"
+
+#include <weft/version.h>
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using program::contains;
+using program::Names;
+using program::number;
+using program::Outcome;
+
+/// An empty folder that goes with the test case, where mesh_3 runs. It holds a cube and one that lacks a face.
+struct Folder : program::Folder
+{
+  explicit Folder(const std::string& name) : program::Folder("mesh_3_program_test_" + name, WEFT_MESH_3)
+  {
+    const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n";
+    const std::string walls = "4 0 3 2 1\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+    write("cube.off", "OFF\n8 6 0\n" + points + walls + "4 4 5 6 7\n");
+    write("open.off", "OFF\n8 5 0\n" + points + walls);
+  }
+
+  /// Names of the files that weren't there before.
+  Names new_files() const
+  {
+    Names names = files();
+    names.erase("cube.off");
+    names.erase("open.off");
+    return names;
+  }
+};
+
+bool is_one_line(const std::string& err)
+{
+  return program::is_one_line(err, "mesh_3");
+}
+
+/// Number of elements in a section of a Medit file.
+std::size_t count_in_medit(const std::string& text, const std::string& section)
+{
+  std::istringstream in(text);
+  std::size_t count = 0;
+  for (std::string word; in >> word;)
+    if (word == section) in >> count;
+  return count;
+}
+
+} // namespace
+
+TEST_CASE("a complete mesh gives status 0 and every file that was asked for, and says nothing on stderr")
+{
+  const Folder folder("complete");
+  const Outcome outcome = folder.run("cube.off --size 0.4 --output m.mesh --output m.vtu --output m.msh --output m.off "
+                                     "--output m.stl --histogram h.svg --report r.json");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err == "");
+  CHECK(contains(outcome.out, "all criteria met"));
+  CHECK(folder.new_files() == Names{"m.mesh", "m.vtu", "m.msh", "m.off", "m.stl", "h.svg", "r.json"});
+  const std::string medit = folder.read("m.mesh"), report = folder.read("r.json");
+  CHECK(count_in_medit(medit, "Tetrahedra") > 20);
+  CHECK(count_in_medit(medit, "Corners") == 8);
+  CHECK(contains(folder.read("m.vtu"), "</VTKFile>"));
+  CHECK(contains(folder.read("m.msh"), "$EndElements"));
+  CHECK(contains(folder.read("h.svg"), "Dihedral angles: cube.off"));
+  CHECK(contains(report, "\"ok\": true"));
+  CHECK(number(report, "volume") == Approx(1));
+  CHECK(number(report, "boundary_area") == Approx(6));
+  CHECK(number(report, "longest_edge") <= 0.4);
+  CHECK(number(report, "crease_edges") >= 36);
+  CHECK(number(report, "cells") == static_cast<double>(count_in_medit(medit, "Tetrahedra")));
+}
+
+TEST_CASE("without options the mesh is as fine as the help says, in parts of the diagonal")
+{
+  const Folder folder("defaults");
+  const Outcome outcome = folder.run("cube.off --report r.json --quiet");
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out == "");
+  CHECK(outcome.err == "");
+  const double longest = number(folder.read("r.json"), "longest_edge");
+  CHECK(longest <= 0.05 * std::sqrt(3.));
+  CHECK(longest > 0.025 * std::sqrt(3.));
+  folder.run(
+      "cube.off --size 5% --approximation 0.1% --facet-shape 2 --cell-shape 2 --sharp-angle 60 --report same.json");
+  const auto quality = [](const std::string& json) { return json.substr(json.find("\"quality\"")); };
+  CHECK(quality(folder.read("same.json")) == quality(folder.read("r.json")));
+}
+
+TEST_CASE("creases are found by the angle that was asked for")
+{
+  const Folder folder("angle");
+  folder.run("cube.off --size 0.4 --sharp-angle 100 --output smooth.mesh");
+  folder.run("cube.off --size 0.4 --sharp-angle 80 --output sharp.mesh");
+  CHECK(count_in_medit(folder.read("smooth.mesh"), "Corners") == 0);
+  CHECK(count_in_medit(folder.read("smooth.mesh"), "Edges") == 0);
+  CHECK(count_in_medit(folder.read("sharp.mesh"), "Corners") == 8);
+}
+
+TEST_CASE("bad usage gives status 1, one line on stderr and no file")
+{
+  const Folder folder("usage");
+  const std::vector<std::string> bad = {"",
+                                        "cube.off open.off",
+                                        "cube.off --bogus",
+                                        "cube.off --size",
+                                        "cube.off --size -1",
+                                        "cube.off --size 0",
+                                        "cube.off --size %",
+                                        "cube.off --size 5%%",
+                                        "cube.off --size inf",
+                                        "cube.off --approximation -1%",
+                                        "cube.off --facet-shape 0.9",
+                                        "cube.off --cell-shape nan",
+                                        "cube.off --sharp-angle 181",
+                                        "cube.off --min-dihedral 71",
+                                        "cube.off --topology=yes",
+                                        "cube.off --size 1 --size 2",
+                                        "cube.off --output m.svg",
+                                        "cube.off --output m.off --output ./m.off",
+                                        "cube.off --output no/such/folder/m.off",
+                                        "cube.off --histogram h.png",
+                                        "cube.off --report r.txt",
+                                        "cube.off --threads 0",
+                                        "cube.off --seed 1.5",
+                                        "cube.off --time-limit 0",
+                                        "missing.off",
+                                        "cube.txt"};
+  for (const std::string& arguments : bad) {
+    INFO(arguments);
+    const Outcome outcome = folder.run(
+        arguments + (arguments.find("--output") == std::string::npos && arguments != "" ? " --output m.mesh" : ""));
+    CHECK(outcome.status == 1);
+    CHECK(is_one_line(outcome.err));
+    CHECK(outcome.out == "");
+    CHECK(folder.new_files().empty());
+  }
+}
+
+TEST_CASE("a surface that isn't closed is refused with its edges named, and repaired where that is asked for")
+{
+  const Folder folder("open");
+  const Outcome refused = folder.run("open.off --size 0.5 --output m.mesh");
+  CHECK(refused.status == 1);
+  CHECK(is_one_line(refused.err));
+  CHECK(contains(refused.err, "--repair"));
+  CHECK(contains(refused.err, "4-5"));
+  CHECK(folder.new_files().empty());
+  const Outcome repaired = folder.run("open.off --size 0.5 --repair --report r.json");
+  CHECK(repaired.status == 0);
+  CHECK(contains(repaired.err, "hole")); // what was changed
+  CHECK(number(folder.read("r.json"), "volume") == Approx(1));
+}
+
+TEST_CASE("a run that stops early gives status 2, says why, and writes the mesh so far")
+{
+  const Folder folder("early");
+  const Outcome outcome = folder.run("cube.off --size 0.05 --max-vertices 200 --output m.mesh --report r.json");
+  CHECK(outcome.status == 2);
+  CHECK(is_one_line(outcome.err));
+  CHECK(contains(outcome.err, "vertex budget reached"));
+  CHECK(folder.new_files() == Names{"m.mesh", "r.json"});
+  CHECK(contains(folder.read("r.json"), "\"ok\": false"));
+  CHECK(count_in_medit(folder.read("m.mesh"), "Tetrahedra") > 0);
+}
+
+TEST_CASE("a smallest dihedral angle that isn't reached gives status 2 and says what was reached")
+{
+  const Folder folder("dihedral");
+  const Outcome outcome = folder.run("cube.off --size 0.4 --min-dihedral 70 --output m.mesh");
+  CHECK(outcome.status == 2);
+  CHECK(is_one_line(outcome.err));
+  CHECK(contains(outcome.err, "smallest dihedral angle"));
+  CHECK(contains(outcome.err, "not 70.0"));
+  CHECK(folder.new_files() == Names{"m.mesh"});
+}
+
+TEST_CASE("the same request gives the same files, for any number of threads")
+{
+  const Folder folder("same");
+  folder.run("cube.off --size 0.2 --seed 7 --output a.mesh");
+  folder.run("cube.off --size 0.2 --seed 7 --threads 3 --output b.mesh --no-optimise --no-perturb");
+  CHECK(folder.read("a.mesh").size() > 1000);
+  CHECK(folder.read("a.mesh") == folder.read("b.mesh"));
+}
+
+TEST_CASE("the boundary that was written can be read and meshed again")
+{
+  const Folder folder("again");
+  REQUIRE(folder.run("cube.off --size 0.4 --output m.off --output m.stl").status == 0);
+  for (const char* input : {"m.off", "m.stl"}) {
+    const Outcome outcome = folder.run(std::string(input) + " --size 0.5 --report r.json");
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err == ""); // nothing had to be turned over
+    CHECK(number(folder.read("r.json"), "volume") == Approx(1).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("help and version go to stdout, and the help names every option of the usage")
+{
+  const Folder folder("help");
+  const Outcome help = folder.run("--help"), version = folder.run("--version");
+  CHECK(help.status == 0);
+  CHECK(help.err == "");
+  for (const char* option : {"--size", "--approximation", "--facet-shape", "--cell-shape", "--sharp-angle",
+                             "--topology", "--manifold", "--min-dihedral", "--no-optimise", "--no-perturb", "--output",
+                             "--report", "--histogram", "--seed", "--threads", "--time-limit", "--quiet", "--repair"})
+    CHECK(contains(help.out, std::string("\n  ") + option));
+  CHECK(version.status == 0);
+  CHECK(version.out == "mesh_3 (weft) " WEFT_VERSION "\n");
+}

@@ -1,0 +1,612 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Properties of `make_mesh_3()`: what a mesh that meets its criteria has to be, that what the restricted triangulation
+// keeps agrees with what the oracle says after every batch, and that every run ends, early or not, with a sound
+// triangulation and a report that tells what it is.
+
+#include "surface_fixtures.h"
+
+#include <weft/make_mesh_3.h>
+#include <weft/spatial/check_criteria_3.h>
+#include <weft/spatial/check_restricted_3.h>
+#include <weft/spatial/features_3.h>
+#include <weft/spatial/hausdorff_3.h>
+#include <weft/spatial/validate_3.h>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using surfaces::K;
+using surfaces::Point;
+using surfaces::Surface;
+using Oracle = weft::Polyhedral_oracle_3<K>;
+using Criteria = weft::Criteria_3<K>;
+using Mesher = weft::Spatial_mesher_3<Oracle>;
+using Mesh = weft::Tetrahedral_mesh_3<K>;
+using Options = weft::Mesh_options_3;
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// \param angle from which on edges are sharp, in degrees.
+Oracle oracle_of(const Surface& surface, double angle = 60)
+{
+  return Oracle(weft::piecewise_smooth_complex(surface.points, surface.triangles, weft::Feature_options{angle}));
+}
+
+Criteria criteria_of(double size, double approximation, bool topology = true)
+{
+  Criteria criteria;
+  criteria.size = size;
+  criteria.approximation = approximation;
+  criteria.topology = topology;
+  return criteria;
+}
+
+/// V - E + F of the boundary.
+long euler_characteristic(const std::vector<std::array<std::size_t, 3>>& facets)
+{
+  std::set<std::size_t> vertices;
+  std::set<std::pair<std::size_t, std::size_t>> edges;
+  for (const auto& f : facets)
+    for (std::size_t i = 0; i < 3; ++i) {
+      vertices.insert(f[i]);
+      edges.insert(std::minmax(f[i], f[(i + 1) % 3]));
+    }
+  return static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) + static_cast<long>(facets.size());
+}
+
+std::size_t number_of_shells(const Mesh& mesh)
+{
+  std::vector<std::array<std::size_t, 2>> edges;
+  for (const auto& f : mesh.facets) edges.insert(edges.end(), {{f[0], f[1]}, {f[1], f[2]}});
+  return weft::internal::number_of_components(edges);
+}
+
+double volume_of_cells(const Mesh& mesh)
+{
+  double sum = 0;
+  for (const auto& c : mesh.cells)
+    sum += CGAL::volume(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]], mesh.points[c[3]]);
+  return sum;
+}
+
+double area(const Mesh& mesh)
+{
+  double sum = 0;
+  for (const auto& f : mesh.facets)
+    sum += std::sqrt(CGAL::squared_area(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]));
+  return sum;
+}
+
+/// Whether two meshes are the same to the last bit.
+bool same(const Mesh& a, const Mesh& b)
+{
+  return a.points == b.points && a.locations == b.locations && a.cells == b.cells && a.facets == b.facets &&
+         a.patches == b.patches && a.edges == b.edges && a.creases == b.creases;
+}
+
+/// Whatever happened: the triangulation is sound, what is kept of it is right, and the report tells what is there.
+template <class Restricted>
+void check_consistent(const Restricted& restricted, const weft::Mesh_report_3& report)
+{
+  const auto agreement = weft::check_restricted_3(restricted);
+  INFO(agreement);
+  CHECK(agreement.ok());
+  const Mesh mesh = weft::tetrahedral_mesh(restricted);
+  CHECK(report.vertices == mesh.points.size());
+  CHECK(report.cells == mesh.cells.size());
+  CHECK(report.facets == mesh.facets.size());
+  CHECK(report.crease_edges == mesh.edges.size());
+  CHECK(report.vertices ==
+        report.corner_vertices + report.crease_vertices + report.patch_vertices + report.interior_vertices);
+  CHECK(weft::check_structure_3(mesh).ok());
+  CHECK(weft::check_orientation_3(mesh).ok());
+  CHECK(weft::check_boundary_3(mesh).ok());
+  if (!mesh.cells.empty()) CHECK(report.manifold == weft::check_manifold_3(mesh).ok());
+  CHECK(report.ok() == (report.stop_reason == weft::Stop_reason::criteria_met));
+}
+
+/// The mesh meets its criteria and is a mesh of the whole domain.
+void check_complete(const Mesh& mesh, const Oracle& oracle, const Criteria& criteria, double approximation)
+{
+  const auto& complex = oracle.complex();
+  weft::Validity_3 validity = weft::validate_3(mesh);
+  validity += weft::check_criteria_3(mesh, criteria);
+  validity += weft::check_distances_3(mesh, oracle);
+  validity += weft::check_features_3(mesh, complex);
+  INFO(validity);
+  CHECK(validity.ok());
+  const std::set<int> patches(mesh.patches.begin(), mesh.patches.end()),
+      creases(mesh.creases.begin(), mesh.creases.end());
+  CHECK(patches.size() == static_cast<std::size_t>(complex.number_of_patches));
+  CHECK(creases.size() == complex.creases.size());
+  CHECK(number_of_shells(mesh) == static_cast<std::size_t>(complex.number_of_shells));
+  CHECK(euler_characteristic(mesh.facets) == euler_characteristic(complex.triangles));
+  const double volume = surfaces::volume(complex.points, complex.triangles);
+  CHECK(std::abs(volume_of_cells(mesh) - volume) <= 2 * approximation * area(mesh) + 1e-9 * volume);
+  const auto distance = weft::hausdorff_3(mesh, complex.points, complex.triangles, 5000);
+  CHECK(distance.two_sided() <= 3 * approximation);
+}
+
+/// Meshes a surface, and checks everything that holds for a mesh that meets its criteria.
+weft::Mesh_report_3 check_meshing(const Surface& surface, const Criteria& criteria, double approximation,
+                                  double angle = 60)
+{
+  const Oracle oracle = oracle_of(surface, angle);
+  const auto [restricted, report] = weft::make_mesh_3(oracle, criteria);
+  INFO(report);
+  CHECK(report.ok());
+  CHECK(report.manifold);
+  check_consistent(restricted, report);
+  check_complete(weft::tetrahedral_mesh(restricted), oracle, criteria, approximation);
+  return report;
+}
+weft::Mesh_report_3 check_meshing(const Surface& surface, double size, double approximation, double angle = 60)
+{
+  return check_meshing(surface, criteria_of(size, approximation), approximation, angle);
+}
+
+/// Turned by an angle about an axis that no face is parallel to.
+Surface turned(Surface surface, double angle = 0.7)
+{
+  const double n = std::sqrt(14.), x = 1 / n, y = 2 / n, z = 3 / n, c = std::cos(angle), s = std::sin(angle);
+  for (Point& p : surface.points) {
+    const double along = (x * p.x() + y * p.y() + z * p.z()) * (1 - c);
+    p = Point(c * p.x() + s * (y * p.z() - z * p.y()) + along * x, c * p.y() + s * (z * p.x() - x * p.z()) + along * y,
+              c * p.z() + s * (x * p.y() - y * p.x()) + along * z);
+  }
+  return surface;
+}
+
+/// The same surface with its points and triangles in another order.
+Surface shuffled(const Surface& surface, unsigned seed)
+{
+  std::mt19937 random(seed);
+  const auto shuffle = [&random](auto& items) { // not std::shuffle: libraries differ
+    for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random() % i]);
+  };
+  std::vector<std::size_t> place(surface.points.size());
+  std::iota(place.begin(), place.end(), std::size_t(0));
+  shuffle(place);
+  Surface result = surface;
+  for (std::size_t i = 0; i < place.size(); ++i) result.points[place[i]] = surface.points[i];
+  for (auto& t : result.triangles)
+    for (std::size_t& v : t) v = place[v];
+  shuffle(result.triangles);
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("meshes of plain models meet all criteria and are meshes of the whole domain")
+{
+  const std::vector<std::pair<std::string, Surface>> models = {{"cube", surfaces::cube()},
+                                                               {"tetrahedron", surfaces::tetrahedron()},
+                                                               {"L", surfaces::l_shape()},
+                                                               {"cube with a hole", surfaces::cube_with_hole()},
+                                                               {"turned cube", turned(surfaces::cube())},
+                                                               {"torus", surfaces::torus(48, 24)},
+                                                               {"cylinder", surfaces::cylinder(48)},
+                                                               {"turned cylinder", turned(surfaces::cylinder(30))},
+                                                               {"cone", surfaces::cone(40, 2)},
+                                                               {"sphere", surfaces::sphere(3)}};
+  for (const auto& [name, surface] : models) {
+    INFO(name);
+    check_meshing(surface, 0.4, 0.02);
+  }
+}
+
+TEST_CASE("a box whose faces lie in those of its bounding box, of one or of many facets, has exactly its volume")
+{
+  for (const int n : {1, 4}) {
+    const Surface box = surfaces::moved(surfaces::box(n, n, n), 1. / n, 0, 0, 0);
+    const Oracle oracle = oracle_of(box);
+    const auto mesh = weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.3, 0.01)).mesh);
+    CHECK(volume_of_cells(mesh) == Approx(1).epsilon(1e-12));
+    CHECK(area(mesh) == Approx(6).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("cavities and components, tiny beside large ones, are all there")
+{
+  check_meshing(surfaces::nested_spheres({0.6, 0.3}, 3), 0.3, 0.01);
+  for (const double size : {0.5, 1e-2, 1e-5}) {
+    INFO("a component of size " << size);
+    check_meshing(surfaces::together(surfaces::sphere(3), surfaces::moved(surfaces::sphere(2), size, 3, 0, 0)), 0.4,
+                  0.02);
+    check_meshing(surfaces::together(surfaces::cube(), surfaces::moved(surfaces::cube(), size, 3, 0.1, 0.2)), 0.4,
+                  0.02);
+  }
+}
+
+TEST_CASE("needle triangles in the input don't show in the mesh")
+{
+  const auto plain = check_meshing(surfaces::cube(), 0.3, 0.01);
+  for (const double width : {1e-3, 1e-6}) {
+    INFO("triangles of aspect " << 1 / width);
+    CHECK(check_meshing(surfaces::needle_cube(width), 0.3, 0.01).vertices < 2 * plain.vertices);
+  }
+}
+
+TEST_CASE("models far from the origin, tiny or huge, are meshed like others")
+{
+  const auto cube = check_meshing(surfaces::cube(), 0.3, 0.01), ball = check_meshing(surfaces::sphere(3), 0.3, 0.01);
+  const auto is_close = [](std::size_t a, std::size_t b) {
+    return std::abs(std::log(static_cast<double>(a) / static_cast<double>(b))) < 0.25;
+  };
+  for (const double offset : {1e3, 1e6}) {
+    INFO("moved by " << offset);
+    const auto far_off = [offset](const Surface& s) { return surfaces::moved(s, 1, offset, -offset, 2 * offset); };
+    CHECK(is_close(check_meshing(far_off(surfaces::cube()), 0.3, 0.01).vertices, cube.vertices));
+    CHECK(is_close(check_meshing(far_off(turned(surfaces::cube())), 0.3, 0.01).vertices, cube.vertices));
+    CHECK(is_close(check_meshing(far_off(surfaces::sphere(3)), 0.3, 0.01).vertices, ball.vertices));
+  }
+  for (const double scale : {1e-6, 1e6}) {
+    INFO("scaled by " << scale);
+    const auto scaled = [scale](const Surface& s) { return surfaces::moved(s, scale, 0, 0, 0); };
+    CHECK(is_close(check_meshing(scaled(surfaces::cube()), 0.3 * scale, 0.01 * scale).vertices, cube.vertices));
+    CHECK(is_close(check_meshing(scaled(surfaces::sphere(3)), 0.3 * scale, 0.01 * scale).vertices, ball.vertices));
+  }
+}
+
+TEST_CASE("scaling by a power of two scales the mesh and changes nothing else")
+{
+  const auto mesh_scaled_by = [](double scale) {
+    const Oracle oracle = oracle_of(surfaces::moved(surfaces::cylinder(20), scale, 0, 0, 0));
+    return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.5 * scale, 0.02 * scale)).mesh);
+  };
+  Mesh mesh = mesh_scaled_by(1);
+  const Mesh large = mesh_scaled_by(1024);
+  for (Point& p : mesh.points) p = Point(1024 * p.x(), 1024 * p.y(), 1024 * p.z());
+  CHECK(same(mesh, large));
+}
+
+TEST_CASE("after every batch everything kept agrees with what the oracle says")
+{
+  for (const Surface& surface :
+       {surfaces::l_shape(), turned(surfaces::cube()), surfaces::cylinder(16), surfaces::torus(20, 10),
+        surfaces::nested_spheres({0.5}, 1), surfaces::wedge(30), surfaces::moved(surfaces::cube(), 1, 1e6, 1e6, 1e6)}) {
+    const Oracle oracle = oracle_of(surface);
+    const Criteria criteria = criteria_of(0.7, 0.05);
+    Options options;
+    const Mesher* running = nullptr;
+    std::size_t calls = 0;
+    options.visitor = [&](const weft::Progress& progress) {
+      ++calls;
+      CHECK(progress.vertices == running->mesh().vertices().size());
+      const auto agreement = weft::check_restricted_3(running->mesh());
+      INFO(agreement);
+      CHECK(agreement.ok());
+      return true;
+    };
+    Mesher mesher(oracle, criteria, options);
+    running = &mesher;
+    const auto report = mesher.run();
+    CHECK(calls == report.batches);
+    CHECK(calls > 5);
+  }
+}
+
+TEST_CASE("each criterion can be asked for by itself")
+{
+  const Surface surface = surfaces::cylinder(24);
+  Criteria criteria = criteria_of(0.5, 0, false);
+  criteria.facet_shape = criteria.cell_shape = 0;
+  const Oracle oracle = oracle_of(surface);
+  const auto vertices = [&] {
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria);
+    INFO(report);
+    CHECK(report.ok());
+    const Mesh mesh = weft::tetrahedral_mesh(restricted);
+    CHECK(weft::check_criteria_3(mesh, criteria).ok());
+    CHECK(weft::validate_3(mesh).ok());
+    return mesh.points.size();
+  };
+  const std::size_t bare = vertices();
+  criteria.facet_shape = 1;
+  CHECK(vertices() > bare);
+  criteria.facet_shape = 0;
+  criteria.cell_shape = 1.5;
+  CHECK(vertices() > bare);
+  criteria.cell_shape = 0;
+  criteria.approximation = 0.005;
+  CHECK(vertices() > bare);
+  criteria.approximation = 0;
+  criteria.size = 0.2;
+  CHECK(vertices() > 4 * bare);
+}
+
+TEST_CASE("a size far beyond the model still gives a mesh of it")
+{
+  for (const Surface& surface :
+       {surfaces::cube(), surfaces::sphere(3), surfaces::torus(30, 15), surfaces::cylinder(20)}) {
+    const Oracle oracle = oracle_of(surface);
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria_of(1e9, 0));
+    INFO(report);
+    CHECK(report.ok());
+    const Mesh mesh = weft::tetrahedral_mesh(restricted);
+    CHECK(mesh.points.size() < 1000);
+    CHECK(weft::validate_3(mesh).ok());
+    CHECK(euler_characteristic(mesh.facets) == euler_characteristic(surface.triangles));
+  }
+}
+
+TEST_CASE("size and approximation may be fields of the place")
+{
+  const auto graded = [](const Point& p) { return 0.08 + 0.3 * std::abs(p.x()); };
+  const Surface sphere = surfaces::sphere(3);
+  Criteria criteria = criteria_of(1, 0.05);
+  criteria.size = graded;
+  const auto report = check_meshing(sphere, criteria, 0.05);
+  criteria.size = 0.08;
+  CHECK(report.vertices < weft::make_mesh_3(oracle_of(sphere), criteria).report.vertices);
+
+  // A constant and a field that is constant ask for the same, but the field gets no lattice.
+  Options options;
+  options.lattice = false;
+  const Oracle oracle = oracle_of(sphere);
+  criteria = criteria_of(0.3, 0.02);
+  Criteria field = criteria;
+  field.size = [](const Point&) { return 0.3; };
+  field.approximation = [](const Point&) { return 0.02; };
+  options.size_floor = 1e-4;
+  CHECK(same(weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).mesh),
+             weft::tetrahedral_mesh(weft::make_mesh_3(oracle, field, options).mesh)));
+
+  criteria.approximation = [](const Point& p) { return p.z() > 0 ? 0.005 : 0.05; };
+  check_meshing(sphere, criteria, 0.05);
+}
+
+TEST_CASE("a field that fails ends the run with its exception and leaves nothing behind")
+{
+  struct Own_error : std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+  const Oracle oracle = oracle_of(surfaces::cylinder(20));
+  const auto run = [&oracle](int good_calls, double value, bool throws, bool as_size) {
+    const auto token = std::make_shared<int>(0); // lives as long as a copy of the field
+    auto calls = std::make_shared<int>(0);
+    const auto field = [=, keep = token](const Point&) {
+      if (++*calls <= good_calls) return 0.3;
+      if (throws) throw Own_error("no size here");
+      return value;
+    };
+    {
+      Criteria criteria = criteria_of(0.4, 0.02);
+      (as_size ? criteria.size : criteria.approximation) = field;
+      if (throws)
+        CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria), Own_error);
+      else
+        CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria), weft::Option_error);
+    }
+    CHECK(token.use_count() == 2); // here and in `field`
+  };
+  for (const bool as_size : {true, false})
+    for (const int good_calls : {0, 1, 100, 2000}) {
+      for (const double value : {not_a_number, -1., 0., infinite}) run(good_calls, value, false, as_size);
+      run(good_calls, 0, true, as_size);
+    }
+}
+
+TEST_CASE("criteria and options out of range are refused")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  const auto refuses = [&oracle](const Criteria& criteria, const Options& options = {}) {
+    CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria, options), weft::Option_error);
+  };
+  for (const double bad : {0., -1., not_a_number, infinite}) refuses(criteria_of(bad, 0.01));
+  for (const double bad : {-1., not_a_number, infinite}) refuses(criteria_of(0.3, bad));
+  for (const double bad : {-1., 0.5, not_a_number}) {
+    Criteria facets = criteria_of(0.3, 0.01), cells = facets;
+    facets.facet_shape = bad;
+    cells.cell_shape = bad;
+    refuses(facets);
+    refuses(cells);
+  }
+  const Criteria good = criteria_of(0.3, 0.01);
+  for (const double bad : {-1., not_a_number}) {
+    Options floor, relaxation, time;
+    floor.size_floor = bad;
+    relaxation.initial_relaxation = bad;
+    time.time_limit = bad;
+    refuses(good, floor);
+    refuses(good, relaxation);
+    refuses(good, time);
+  }
+  Options threads;
+  threads.threads = 0;
+  refuses(good, threads);
+}
+
+TEST_CASE("a run is repeatable to the last bit, with any number of threads")
+{
+  const Oracle oracle =
+      oracle_of(surfaces::together(surfaces::sphere(4), surfaces::moved(surfaces::cube(), 1, 2, 0, 0)));
+  const Criteria criteria = criteria_of(0.12, 0.005);
+  const auto mesh = [&](int threads, unsigned seed) {
+    Options options;
+    options.threads = threads;
+    options.seed = seed;
+    return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).mesh);
+  };
+  const Mesh first = mesh(1, 0);
+  CHECK(first.points.size() > 5000);
+  CHECK(same(first, mesh(1, 0)));
+  CHECK(same(first, mesh(2, 0)));
+  CHECK(same(first, mesh(4, 0)));
+  CHECK(!same(first, mesh(1, 1)));
+}
+
+TEST_CASE("the order of the input's points and triangles hardly changes the number of vertices")
+{
+  for (const Surface& surface : {surfaces::cylinder(32), surfaces::torus(40, 20), surfaces::l_shape()}) {
+    const double vertices = static_cast<double>(check_meshing(surface, 0.25, 0.01).vertices);
+    for (const unsigned seed : {1u, 2u, 3u})
+      CHECK(static_cast<double>(check_meshing(shuffled(surface, seed), 0.25, 0.01).vertices) ==
+            Approx(vertices).epsilon(0.1));
+  }
+}
+
+TEST_CASE("a run that a limit ends says so and leaves a sound triangulation")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(24));
+  const Criteria criteria = criteria_of(0.2, 0.005);
+  const auto run = [&](const Options& options, weft::Stop_reason reason) {
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria, options);
+    INFO(report);
+    CHECK(report.stop_reason == reason);
+    CHECK(!report.ok());
+    check_consistent(restricted, report);
+    return restricted.vertices().size();
+  };
+  for (const std::size_t most : {0, 1, 3, 10, 40, 200, 600}) {
+    INFO("at most " << most << " vertices");
+    Options options;
+    options.max_vertices = most;
+    CHECK(run(options, weft::Stop_reason::vertex_budget) <= (std::max)(most, std::size_t(6))); // three on each rim
+  }
+  for (const std::size_t most : {0, 1, 2, 5, 20}) {
+    Options options;
+    options.max_batches = most;
+    run(options, weft::Stop_reason::iteration_limit);
+  }
+  for (const double seconds : {0., 1e-3, 1e-2}) {
+    Options options;
+    options.time_limit = seconds;
+    run(options, weft::Stop_reason::time_limit);
+  }
+}
+
+TEST_CASE("a run that is cancelled at any moment says so and leaves a sound triangulation")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(12));
+  const Criteria criteria = criteria_of(0.5, 0.05);
+  Options options;
+  std::size_t batches = 1;
+  for (std::size_t last = 1; last <= batches; ++last) {
+    std::size_t calls = 0;
+    options.visitor = [&](const weft::Progress&) { return ++calls < last; };
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria, options);
+    INFO(report);
+    CHECK(report.stop_reason == weft::Stop_reason::cancelled);
+    CHECK(report.batches == last);
+    CHECK(calls == last);
+    check_consistent(restricted, report);
+    if (last == 1) batches = weft::make_mesh_3(oracle, criteria).report.batches;
+  }
+  CHECK(batches > 10);
+}
+
+TEST_CASE("an exception from the visitor goes to the caller")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  Options options;
+  options.visitor = [](const weft::Progress&) -> bool { throw std::runtime_error("enough"); };
+  CHECK_THROWS_WITH(weft::make_mesh_3(oracle, criteria_of(0.5, 0.01), options), "enough");
+}
+
+TEST_CASE("at acute dihedral angles a run ends by itself, with few vertices, and says where it gave up")
+{
+  for (const double angle : {70., 55., 47., 20., 5., 1.})
+    for (const double sharp : {60., 180.}) // creases, or nothing marked
+      for (const bool topology : {false, true}) {
+        INFO("a wedge of " << angle << " degrees, sharp from " << sharp << ", topology " << topology);
+        const Oracle oracle = oracle_of(surfaces::wedge(angle), sharp);
+        const Criteria criteria = criteria_of(0.2, 0.01, topology);
+        const auto [restricted, report] = weft::make_mesh_3(oracle, criteria);
+        INFO(report);
+        CHECK(report.cells > 0);
+        CHECK(report.vertices < 20000);
+        check_consistent(restricted, report);
+        const Mesh mesh = weft::tetrahedral_mesh(restricted);
+        CHECK(weft::check_sizes_3(mesh, criteria.size).ok());
+        CHECK(weft::check_distances_3(mesh, oracle).ok());
+        if (angle >= 55) CHECK(report.ok());
+        if (report.ok()) {
+          CHECK(weft::validate_3(mesh).ok());
+          continue;
+        }
+        CHECK(report.stop_reason == weft::Stop_reason::exhausted);
+        for (const auto& bad : {report.bad_edges, report.bad_facets, report.bad_cells})
+          CHECK(bad.at_acute_edge == bad.elements);
+      }
+}
+
+TEST_CASE("creases that meet at a sharp angle don't split each other without end")
+{
+  // A tetrahedron whose faces at the tip are narrow, dihedral angles being large.
+  for (const double width : {0.3, 0.1, 0.03}) {
+    INFO("a spike of width " << width);
+    Surface spike = surfaces::tetrahedron();
+    for (Point& p : spike.points) p = Point(width * p.x(), width * p.y(), p.z());
+    const Oracle oracle = oracle_of(spike);
+    Criteria criteria = criteria_of(0.1, 0.01);
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria);
+    INFO(report);
+    CHECK(report.bad_edges.elements == 0);
+    CHECK(report.vertices < 20000);
+    check_consistent(restricted, report);
+    CHECK(weft::check_features_3(weft::tetrahedral_mesh(restricted), oracle.complex()).ok());
+  }
+}
+
+TEST_CASE("what disagrees in a restricted triangulation is found")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(12));
+  auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05));
+  auto& mesh = result.mesh;
+  const auto faults = [&mesh] { return weft::check_restricted_3(mesh).count(weft::Fault_kind_3::restricted); };
+  REQUIRE(faults() == 0);
+  using Cell_handle = weft::Restricted_delaunay_3<Oracle>::Cell_handle;
+  const auto find_cell = [&mesh](int subdomain) -> Cell_handle {
+    for (const auto c : mesh.triangulation().finite_cell_handles())
+      if (c->subdomain() == subdomain && !mesh.is_at_box(c)) return c;
+    return {};
+  };
+  for (const int subdomain : {0, 1}) {
+    const auto c = find_cell(subdomain);
+    c->set_subdomain(1 - subdomain);
+    CHECK(faults() > 0);
+    c->set_subdomain(subdomain);
+  }
+  const auto inner = find_cell(1);
+  const Point center = inner->circumcenter();
+  inner->set_circumcenter(CGAL::midpoint(center, inner->vertex(0)->point()));
+  CHECK(faults() > 0);
+  inner->set_circumcenter(center);
+  for (const auto& f : mesh.facets())
+    if (f.cell != Cell_handle()) {
+      const int record = f.cell->facet_record(f.index);
+      f.cell->set_facet_record(f.index, -1);
+      CHECK(faults() > 0); // its two cells disagree
+      f.cell->neighbor(f.index)->set_facet_record(f.cell->neighbor(f.index)->index(f.cell), -1);
+      CHECK(faults() > 0); // it is missing
+      f.cell->set_facet_record(f.index, record);
+      f.cell->neighbor(f.index)->set_facet_record(f.cell->neighbor(f.index)->index(f.cell), record);
+      break;
+    }
+  CHECK(faults() == 0);
+  // A vertex on a crease that nobody has told the creases about.
+  const auto& points = mesh.creases().points(0);
+  mesh.insert(CGAL::midpoint(points[0], points[1]), {1, 0});
+  CHECK(faults() > 0);
+  mesh.update();
+  CHECK(faults() == 0);
+}
