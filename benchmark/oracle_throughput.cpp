@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Time per query of the domain oracle against CGAL's AABB tree, on the same queries in the same process, one thread:
-//   oracle_throughput [FILE.off...] [--queries N]
-// Without a file: a sphere of 20,000 triangles. Times are user CPU time; the two take turns, and the best of five
-// rounds counts.
+//   oracle_throughput [FILE...] [--queries N]
+// Files are closed surfaces (.off, .obj, .stl, .ply). Without one: a sphere of 20,000 triangles. Times are user CPU
+// time; the two take turns, and the best of five rounds counts.
 
 #include <weft/internal/cgal_aabb_tree.h>
+#include <weft/IO/read_surface.h>
+#include <weft/spatial/features_3.h>
 #include <weft/spatial/Polyhedral_oracle_3.h>
 
 #include <CGAL/boost/graph/graph_traits_Surface_mesh.h>
@@ -18,11 +20,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -67,32 +67,9 @@ Complex sphere(int rings, int sides)
   return finished(complex);
 }
 
-Complex read_off(const std::string& file)
+Complex read(const std::string& file)
 {
-  std::ifstream in(file);
-  std::string header;
-  std::size_t points = 0, faces = 0, edges = 0;
-  Complex complex;
-  if (!(in >> header >> points >> faces >> edges)) throw std::runtime_error(file + ": not an OFF file");
-  std::string line;
-  const auto next_line = [&] {
-    while (std::getline(in, line))
-      if (line.find_first_not_of(" \t\r") != std::string::npos) return;
-    throw std::runtime_error(file + ": truncated");
-  };
-  for (std::size_t i = 0; i < points; ++i) {
-    next_line();
-    double x = 0, y = 0, z = 0;
-    std::istringstream(line) >> x >> y >> z;
-    complex.points.emplace_back(x, y, z);
-  }
-  for (std::size_t i = 0; i < faces; ++i) {
-    next_line();
-    std::size_t n = 0, a = 0, b = 0, c = 0;
-    std::istringstream(line) >> n >> a >> b >> c;
-    complex.triangles.push_back({a, b, c});
-  }
-  return finished(complex);
+  return finished(weft::piecewise_smooth_complex(weft::IO::read_surface<K>(file), weft::Feature_options(0)));
 }
 
 Mesh mesh_of(const Complex& complex)
@@ -286,7 +263,7 @@ int main(int argc, char** argv)
       else
         files.push_back(argument);
     }
-    for (const std::string& file : files) measure(file.substr(file.find_last_of('/') + 1), read_off(file), queries);
+    for (const std::string& file : files) measure(file.substr(file.find_last_of('/') + 1), read(file), queries);
     if (files.empty()) measure("sphere", sphere(100, 100), queries);
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {

@@ -46,9 +46,9 @@ inline std::vector<Figure> spatial_figures(const std::vector<Spatial_run>& runs,
     result.push_back({name, larger, on_average, at_least, aim, decimals, unit, {}, true});
     return result.back();
   };
-  Figure& holds = ask("meshes of which all criteria hold", true, false, 1, 1, 0);
-  Figure& checked = ask("meshes in which the checker finds no fault", true, false, 1, 1, 0);
-  Figure& manifold = ask("meshes whose boundary is a closed manifold", true, false, 1, 1, 0);
+  Figure& holds = ask("meshes of which all criteria hold", true, false, 1, 1, 2);
+  Figure& checked = ask("meshes in which the checker finds no fault", true, false, 1, 1, 2);
+  Figure& manifold = ask("meshes whose boundary is a closed manifold", true, false, 1, 1, 2);
   for (Figure* f : {&holds, &checked, &manifold}) f->has_aim = false;
   Figure& smooth = ask("Hausdorff distance / ε, parts without creases", false, false, 3, 1.5, 2);
   Figure& creased = ask("Hausdorff distance / ε, creased parts", false, false, 3, 1.5, 2);

@@ -311,7 +311,7 @@ def gear():
     for i in range(len(around)):
         for j in range(n):
             a, b = i * n + j, i * n + (j + 1) % n
-            surface.facets.append((a, (a + n) % total, (b + n) % total, b))
+            surface.facets.append((a, b, (b + n) % total, (a + n) % total))
     return surface
 
 

@@ -62,9 +62,9 @@ const std::vector<command_line::Option> known_options = {
      "edges of the input are sharp from this angle between the normals of their facets\non; 0 for none (default 60)"},
     {"--topology", "", "boundary facets keep to one patch between creases, crease edges to one crease"},
     {"--manifold", "", "the boundary of the mesh must be a 2-manifold"},
-    {"--min-dihedral", "DEG", "smallest dihedral angle wanted; whether it is reached is said at the end"},
-    {"--no-optimise", "", "no moving of vertices after refinement; so far there is none anyway"},
-    {"--no-perturb", "", "no perturbation of slivers; so far there is none anyway"},
+    {"--min-dihedral", "DEG", "smallest dihedral angle to perturb slivers for; without it 20, if it can be reached"},
+    {"--no-optimise", "", "no smoothing after refinement; so far there is none anyway"},
+    {"--no-perturb", "", "no perturbation of slivers"},
     {"--repair", "", "try to repair an input that isn't a closed surface, instead of refusing it"},
     {"--output", "FILE",
      "the mesh; may be given several times. The extension is the format: .mesh (Medit),\n.vtu (VTK), .msh (Gmsh), or "
@@ -124,6 +124,8 @@ void read_criteria(const command_line::Arguments& arguments, Request& request)
   criteria.manifold = arguments.has("--manifold");
   constexpr double regular = 70.52; // degrees; not even regular tetrahedra, which don't fill space, have more
   request.min_dihedral = arguments.number("--min-dihedral", 0, regular).value_or(0);
+  if (!arguments.has("--no-perturb"))
+    request.options.min_dihedral_angle = arguments.has("--min-dihedral") ? request.min_dihedral : 20;
   request.features.sharp_angle = arguments.number("--sharp-angle", 0, 180).value_or(request.features.sharp_angle);
   request.repair = arguments.has("--repair");
 }

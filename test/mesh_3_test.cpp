@@ -11,6 +11,7 @@
 #include <weft/spatial/check_restricted_3.h>
 #include <weft/spatial/features_3.h>
 #include <weft/spatial/hausdorff_3.h>
+#include <weft/spatial/perturb_slivers_3.h>
 #include <weft/spatial/validate_3.h>
 
 #include <catch2/catch.hpp>
@@ -305,12 +306,15 @@ TEST_CASE("after every batch everything kept agrees with what the oracle says")
 
 TEST_CASE("each criterion can be asked for by itself")
 {
-  const Surface surface = surfaces::cylinder(24);
-  Criteria criteria = criteria_of(0.5, 0, false);
-  criteria.facet_shape = criteria.cell_shape = 0;
-  const Oracle oracle = oracle_of(surface);
-  const auto vertices = [&] {
-    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria);
+  const Oracle bar = oracle_of(surfaces::box(6, 1, 1)), cylinder = oracle_of(surfaces::cylinder(24));
+  const auto vertices = [](const Oracle& oracle, double size, double approximation, double facet_shape,
+                           double cell_shape) {
+    Criteria criteria = criteria_of(size, approximation, false);
+    criteria.facet_shape = facet_shape;
+    criteria.cell_shape = cell_shape;
+    Options options;
+    options.lattice = false;
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria, options);
     INFO(report);
     CHECK(report.ok());
     const Mesh mesh = weft::tetrahedral_mesh(restricted);
@@ -318,18 +322,11 @@ TEST_CASE("each criterion can be asked for by itself")
     CHECK(weft::validate_3(mesh).ok());
     return mesh.points.size();
   };
-  const std::size_t bare = vertices();
-  criteria.facet_shape = 1;
-  CHECK(vertices() > bare);
-  criteria.facet_shape = 0;
-  criteria.cell_shape = 1.5;
-  CHECK(vertices() > bare);
-  criteria.cell_shape = 0;
-  criteria.approximation = 0.005;
-  CHECK(vertices() > bare);
-  criteria.approximation = 0;
-  criteria.size = 0.2;
-  CHECK(vertices() > 4 * bare);
+  const std::size_t bare = vertices(bar, 100, 0, 0, 0), coarse = vertices(cylinder, 1.5, 0, 0, 0);
+  CHECK(vertices(bar, 100, 0, 1, 0) > bare);
+  CHECK(vertices(bar, 100, 0, 0, 1.5) > bare);
+  CHECK(vertices(bar, 0.5, 0, 0, 0) > 4 * bare);
+  CHECK(vertices(cylinder, 1.5, 0.01, 0, 0) > coarse);
 }
 
 TEST_CASE("a size far beyond the model still gives a mesh of it")
@@ -567,9 +564,115 @@ TEST_CASE("creases that meet at a sharp angle don't split each other without end
   }
 }
 
+TEST_CASE("perturbation raises the smallest dihedral angle and breaks nothing that held")
+{
+  struct Case
+  {
+    Surface surface;
+    double size, approximation, target, reached;
+  };
+  for (const Case& c : {Case{surfaces::torus(48, 24), 0.3, 0.02, 15, 10},
+                        Case{surfaces::cylinder(40), 0.4, 0.02, 15, 10}, Case{surfaces::cube(), 0.2, 0, 20, 15}}) {
+    const Oracle oracle = oracle_of(c.surface);
+    const Criteria criteria = criteria_of(c.size, c.approximation);
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+    REQUIRE(refined.ok());
+    weft::Perturb_options_3 options;
+    options.target = c.target;
+    double last = 0;
+    options.go_on = [&](double angle) {
+      CHECK(angle >= last); // hill climbing
+      last = angle;
+      return true;
+    };
+    const weft::Perturb_report_3 report = weft::perturb_slivers_3(mesh, criteria, options);
+    CHECK(report.before == Approx(refined.smallest_dihedral).margin(1e-6));
+    CHECK(report.after >= report.before);
+    CHECK(report.after > c.reached);
+    const auto agreement = weft::check_restricted_3(mesh);
+    INFO(agreement);
+    CHECK(agreement.ok());
+    const Mesh arrays = weft::tetrahedral_mesh(mesh);
+    CHECK(weft::measure_quality_3(arrays).smallest_dihedral.degrees == Approx(report.after).margin(1e-6));
+    CHECK(arrays.points.size() <= 1.05 * static_cast<double>(refined.vertices) + 1);
+    check_complete(arrays, oracle, criteria, c.approximation);
+  }
+}
+
+TEST_CASE("perturbation is repeatable to the last bit and may be stopped between passes")
+{
+  const Oracle oracle = oracle_of(surfaces::torus(48, 24));
+  const Criteria criteria = criteria_of(0.3, 0.02);
+  Options options;
+  options.min_dihedral_angle = 18;
+  const auto first = weft::make_mesh_3(oracle, criteria, options),
+             second = weft::make_mesh_3(oracle, criteria, options);
+  CHECK(same(weft::tetrahedral_mesh(first.mesh), weft::tetrahedral_mesh(second.mesh)));
+  CHECK(first.report.perturbed > 0);
+  CHECK(first.report.smallest_dihedral > first.report.refined_smallest_dihedral);
+  for (const int calls : {0, 1, 3}) {
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+    weft::Perturb_options_3 perturb;
+    int left = calls;
+    perturb.go_on = [&](double) { return left-- > 0; };
+    const auto report = weft::perturb_slivers_3(mesh, criteria, perturb);
+    CHECK(report.after >= refined.smallest_dihedral - 1e-6);
+    CHECK(weft::check_restricted_3(mesh).ok());
+    CHECK(weft::validate_3(weft::tetrahedral_mesh(mesh)).ok());
+  }
+}
+
+TEST_CASE("options of perturbation out of range are refused")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.5, 0));
+  const auto refused = [&, &mesh = mesh](auto change) {
+    weft::Perturb_options_3 options;
+    change(options);
+    CHECK_THROWS_AS(weft::perturb_slivers_3(mesh, criteria_of(0.5, 0), options), weft::Option_error);
+  };
+  refused([](auto& o) { o.target = -1; });
+  refused([](auto& o) { o.target = not_a_number; });
+  refused([](auto& o) { o.step = 0; });
+  refused([](auto& o) { o.random_reach = 1; });
+  refused([](auto& o) { o.insertions = -1; });
+  refused([](auto& o) { o.time_limit = -1; });
+}
+
+TEST_CASE("a point that is a vertex already isn't inserted again")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05));
+  const auto vertices = result.mesh.vertices();
+  for (const auto v : vertices) CHECK(result.mesh.insert(v->point(), v->location()) == v);
+  CHECK(result.mesh.vertices().size() == vertices.size());
+}
+
+TEST_CASE("edges form one cycle only if that doesn't meet itself")
+{
+  using Edges = std::vector<std::pair<int, int>>;
+  const auto is_cycle = [](Edges edges) {
+    std::sort(edges.begin(), edges.end());
+    Edges first = edges; // is_one_cycle() changes the order
+    const bool expected = weft::is_one_cycle(first);
+    while (std::next_permutation(edges.begin(), edges.end())) {
+      Edges copy = edges;
+      CHECK(weft::is_one_cycle(copy) == expected); // whatever the order
+    }
+    return expected;
+  };
+  CHECK(is_cycle({{0, 1}, {2, 1}, {2, 0}}));
+  CHECK(is_cycle({{0, 1}, {2, 1}, {2, 3}, {4, 3}, {0, 4}}));
+  CHECK(!is_cycle({{0, 1}, {1, 0}}));
+  CHECK(!is_cycle({{0, 1}, {1, 2}, {2, 3}}));
+  CHECK(!is_cycle({{0, 1}, {1, 2}, {2, 0}, {2, 3}}));
+  CHECK(!is_cycle({{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}}));
+  CHECK(!is_cycle({{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 4}, {4, 2}})); // a figure of eight
+}
+
 TEST_CASE("what disagrees in a restricted triangulation is found")
 {
-  const Oracle oracle = oracle_of(surfaces::cylinder(12));
+  const Oracle oracle = oracle_of(surfaces::l_shape());
   auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05));
   auto& mesh = result.mesh;
   const auto faults = [&mesh] { return weft::check_restricted_3(mesh).count(weft::Fault_kind_3::restricted); };
@@ -582,6 +685,7 @@ TEST_CASE("what disagrees in a restricted triangulation is found")
   };
   for (const int subdomain : {0, 1}) {
     const auto c = find_cell(subdomain);
+    REQUIRE(c != Cell_handle());
     c->set_subdomain(1 - subdomain);
     CHECK(faults() > 0);
     c->set_subdomain(subdomain);
@@ -605,7 +709,7 @@ TEST_CASE("what disagrees in a restricted triangulation is found")
   CHECK(faults() == 0);
   // A vertex on a crease that nobody has told the creases about.
   const auto& points = mesh.creases().points(0);
-  mesh.insert(CGAL::midpoint(points[0], points[1]), {1, 0});
+  mesh.insert(points[0] + 0.377 * (points[1] - points[0]), {1, 0});
   CHECK(faults() > 0);
   mesh.update();
   CHECK(faults() == 0);

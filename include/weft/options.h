@@ -67,6 +67,7 @@ struct Mesh_options_2
 /// Options of `make_mesh_3()`.
 struct Mesh_options_3
 {
+  double min_dihedral_angle = 0; ///< smallest dihedral angle in degrees to perturb slivers for; 0: refinement alone
   double size_floor = 0; ///< no Steiner point closer to a vertex, in the input's units; 0: chosen from the criteria
   bool lattice = true;   ///< fill thick parts with a body-centred cubic lattice where the size is constant
   double initial_relaxation = 2;       ///< factor by which criteria are loosened for the first mesh
@@ -83,6 +84,7 @@ struct Mesh_options_3
     const auto require = [](bool holds, const char* what) {
       if (!holds) throw Option_error(what);
     };
+    require(min_dihedral_angle >= 0 && min_dihedral_angle <= 90, "min_dihedral_angle must lie in [0, 90] degrees");
     require(size_floor >= 0, "size_floor must not be negative");
     require(initial_relaxation >= 1, "initial_relaxation must be at least 1");
     require(time_limit >= 0, "time_limit must not be negative");

@@ -121,6 +121,10 @@ struct Mesh_report_3
   std::size_t bad_vertices = 0; ///< vertices without a topological disk of boundary facets or crease edges
   std::size_t bare_patches = 0; ///< patches without a boundary facet
 
+  double refined_smallest_dihedral = 0; ///< degrees, before perturbation; 0 if there was none
+  std::size_t perturbed = 0;            ///< vertex moves of the perturbation
+  std::size_t perturb_insertions = 0;   ///< vertices it inserted where no move helped
+
   std::size_t batches = 0;
   std::size_t candidates = 0;       ///< Steiner points whose conflict zone was looked for
   std::size_t encroachments = 0;    ///< Steiner points replaced by that of an element they encroach upon
@@ -155,6 +159,9 @@ inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
       << "dihedral angles " << r.smallest_dihedral << " to " << r.largest_dihedral << " degrees, boundary "
       << (r.manifold ? "a closed manifold" : "not manifold") << "\n"
       << name(r.stop_reason) << "\n";
+  if (r.perturbed)
+    out << "perturbation: from " << r.refined_smallest_dihedral << " degrees, " << counted(r.perturbed, "move", "moves")
+        << ", " << counted(r.perturb_insertions, "insertion", "insertions") << "\n";
   unsatisfied(r.bad_edges, "crease edges");
   unsatisfied(r.bad_facets, "facets");
   unsatisfied(r.bad_cells, "cells");

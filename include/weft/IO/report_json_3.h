@@ -33,6 +33,8 @@ inline void append_json(Json_text& json, const Mesh_report_3& r)
   json.member("cells", r.cells).member("facets", r.facets).member("crease_edges", r.crease_edges);
   json.member("smallest_dihedral", r.smallest_dihedral).member("largest_dihedral", r.largest_dihedral);
   json.member("largest_facet_shape", r.largest_facet_shape).member("largest_cell_shape", r.largest_cell_shape);
+  json.member("refined_smallest_dihedral", r.refined_smallest_dihedral).member("perturbed", r.perturbed);
+  json.member("perturb_insertions", r.perturb_insertions);
   append_json(json, "bad_edges", r.bad_edges);
   append_json(json, "bad_facets", r.bad_facets);
   append_json(json, "bad_cells", r.bad_cells);

@@ -56,6 +56,8 @@ Zone_result find_conflict_zone(const Triangulation& tr, const typename Triangula
   zone.clear();
   zone.point = point;
   if (start->batch() == batch) return Zone_result::claimed;
+  for (int i = 0; i < 4; ++i) // symbolic perturbation knows no equal points
+    if (!tr.is_infinite(start->vertex(i)) && start->vertex(i)->point() == point) return Zone_result::no_conflict;
   if (tr.side_of_sphere(start, point, true) != CGAL::ON_BOUNDED_SIDE) return Zone_result::no_conflict;
   start->tds_data().mark_in_conflict();
   zone.cells.push_back(start);

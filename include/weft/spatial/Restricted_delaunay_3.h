@@ -145,6 +145,30 @@ public:
     return filling;
   }
 
+  /// Removes the vertex that was inserted last and classifies what fills its place.
+  void remove_last()
+  {
+    new_cells_ = take_away(vertices_.back());
+    vertices_.pop_back();
+    touched_.pop_back();
+    update();
+  }
+
+  /// Takes a vertex away that was just put back: what its place was filled with before is part of the filling again.
+  std::vector<Cell_handle> take_away_again(Vertex_handle v)
+  {
+    std::vector<Cell_handle> filling = take_away(v);
+    for (const Cell_handle c : filling_left_) {
+      for (int i = 0; i < 4; ++i) {
+        forget_facet(c, i);
+        touch(c->vertex(i));
+      }
+      c->set_classified(false);
+      filling.push_back(c);
+    }
+    return filling;
+  }
+
   /// Puts a vertex back that was taken away: at the point of a zone, under its number, and classifies what changed.
   /// \param filling as returned by `take_away()`.
   Vertex_handle put_back(const Zone& zone, const Vertex_location_3& location, int id,
@@ -155,6 +179,7 @@ public:
     new_cells_.clear();
     for (const Cell_handle c : filling)
       if (c->batch() != batches_) new_cells_.push_back(c);
+    filling_left_ = new_cells_;
     const Vertex_handle v = insert(zone, location, id);
     update();
     return v;
@@ -417,6 +442,8 @@ private:
   int batches_ = 0;
   bool creases_are_stale_ = true; ///< single insertions don't follow them at once
   std::vector<Cell_handle> new_cells_, classified_;
+  std::vector<Cell_handle>
+      filling_left_; ///< cells that filled the place of the vertex put back last and are there still
   std::vector<Voronoi_edge> edges_;
   std::vector<int> edge_of_facet_; ///< by new cell and index, the Voronoi edge in `edges_`; -1 where none is needed
   std::vector<Restricted_facet> facets_;

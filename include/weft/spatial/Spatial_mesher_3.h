@@ -10,6 +10,7 @@
 #include <weft/options.h>
 #include <weft/report.h>
 #include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/perturb_slivers_3.h>
 #include <weft/spatial/refine_3.h>
 #include <weft/spatial/report_3.h>
 #include <weft/spatial/Restricted_delaunay_3.h>
@@ -51,7 +52,9 @@ public:
     begin_stage("lattice", Stage::seeding);
     if (go_on && options_.lattice && criteria_.size.is_constant()) insert_lattice();
     begin_stage("interior", Stage::refinement);
-    if (go_on) refine(1, true);
+    go_on = go_on && refine(1, true);
+    begin_stage("perturbation", Stage::polishing);
+    if (go_on && options_.min_dihedral_angle > 0) perturb();
     end_stage();
     fill_report(mesh_, criteria_, size_floor(), report_);
     return report_;
@@ -133,7 +136,9 @@ private:
   {
     const double spacing = lattice_spacing * criteria_.size.constant();
     const std::size_t room = options_.max_vertices - (std::min)(options_.max_vertices, mesh_.vertices().size());
-    mesh_.insert(interior_lattice(oracle_, spacing, lattice_clearance * spacing, room), {3, 1});
+    auto points = interior_lattice(oracle_, spacing, lattice_clearance * spacing, room);
+    drop_encroaching(mesh_, spacing, lattice_clearance * spacing, points);
+    mesh_.insert(points, {3, 1});
   }
 
   /// Refines until nothing more can be done; false when the run has to end.
@@ -154,6 +159,21 @@ private:
     report_.candidates += refiner.candidates();
     report_.encroachments += refiner.encroachments();
     return go_on;
+  }
+
+  void perturb()
+  {
+    Perturb_options_3 options;
+    options.target = options_.min_dihedral_angle;
+    options.seed = options_.seed + 2;
+    options.time_limit = options_.time_limit - timer_.seconds();
+    if (!(options.time_limit > 0)) return static_cast<void>(stop(Stop_reason::time_limit));
+    options.go_on = [this](double) { return visit(0) || stop(Stop_reason::cancelled); };
+    const Perturb_report_3 result = perturb_slivers_3(mesh_, criteria_, options);
+    report_.refined_smallest_dihedral = result.before;
+    report_.perturbed = result.by_radius + result.by_volume + result.by_chance;
+    report_.perturb_insertions = result.insertions;
+    if (timer_.seconds() >= options_.time_limit) stop(Stop_reason::time_limit);
   }
 
   bool stop(Stop_reason reason)

@@ -16,10 +16,12 @@
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/tags.h>
 #include <CGAL/Triangulation_data_structure_3.h>
 #include <CGAL/Triangulation_vertex_base_3.h>
 
 #include <array>
+#include <cstddef>
 
 namespace weft {
 
@@ -45,7 +47,13 @@ public:
   int id() const { return id_; }
   void set_id(int i) { id_ = i; }
 
+  // With these CGAL orders handles by age instead of by address, in removals for instance, which makes runs repeatable.
+  using Has_timestamp = CGAL::Tag_true;
+  std::size_t time_stamp() const { return time_stamp_; }
+  void set_time_stamp(const std::size_t& stamp) { time_stamp_ = stamp; }
+
 private:
+  std::size_t time_stamp_; // set by CGAL's container alone, which keeps it while the place is free
   Vertex_location_3 location_{-1, 0};
   int id_ = -1;
 };
@@ -94,7 +102,13 @@ public:
   int batch() const { return batch_; }
   void set_batch(int b) { batch_ = b; }
 
+  // With these CGAL orders handles by age instead of by address, in removals for instance, which makes runs repeatable.
+  using Has_timestamp = CGAL::Tag_true;
+  std::size_t time_stamp() const { return time_stamp_; }
+  void set_time_stamp(const std::size_t& stamp) { time_stamp_ = stamp; }
+
 private:
+  std::size_t time_stamp_; // as above
   Point_3 circumcenter_;
   std::array<int, 4> facet_records_{{-1, -1, -1, -1}};
   int subdomain_ = 0;

@@ -18,6 +18,7 @@
 #include <weft/internal/coordinates_3.h>
 #include <weft/spatial/circumcenter_3.h>
 #include <weft/spatial/Crease_tracer_3.h>
+#include <weft/spatial/Polyhedral_oracle_3.h>
 #include <weft/spatial/Restricted_delaunay_3.h>
 #include <weft/spatial/Validity_3.h>
 
@@ -314,6 +315,7 @@ Validity_3 check_restricted_3(const Restricted& mesh)
   Validity_3 validity;
   const internal::Restricted_checker_3<Restricted> checker(mesh);
   checker.check_vertices(validity);
+  if (mesh.vertices().empty()) return validity; // nothing is kept of the bare box
   const auto& tr = mesh.triangulation();
   for (const auto c : tr.all_cell_handles()) checker.check_cell(c, validity);
   std::size_t restricted = 0, kept = 0;

@@ -44,6 +44,7 @@ struct Perturb_options_3
   double step = 2;            ///< by which the bound is raised
   int most_passes = 8;        ///< over the vertices of cells below a bound
   int random_trials = 24;     ///< random places for a vertex
+  double insertions = 0.04;   ///< most vertices to insert where no move helps, in parts of those there are
   double random_reach = 0.35; ///< how far from it, in parts of its shortest edge
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
   unsigned seed = 0;
@@ -58,6 +59,7 @@ struct Perturb_options_3
     require(target >= 0 && target <= 90, "target must lie in [0, 90] degrees");
     require(first_bound > 0 && step > 0, "bounds must be positive");
     require(most_passes > 0 && random_trials >= 0, "numbers of passes and trials must not be negative");
+    require(insertions >= 0 && insertions <= 1, "insertions must lie in [0, 1]");
     require(random_reach > 0 && random_reach < 1, "random_reach must lie in (0, 1)");
     require(time_limit >= 0, "time_limit must not be negative");
   }
@@ -69,6 +71,7 @@ struct Perturb_report_3
   double before = 0, after = 0; ///< smallest dihedral angles, in degrees
   std::size_t passes = 0, tried_vertices = 0, trials = 0;
   std::size_t by_radius = 0, by_volume = 0, by_chance = 0; ///< moves that were kept, by direction
+  std::size_t insertions = 0;                              ///< of vertices inside, where no move helped
   std::size_t refused = 0; ///< moves that were undone: the boundary or a criterion would have suffered
   double seconds = 0;
 };
@@ -86,7 +89,12 @@ public:
   using Zone = typename Restricted::Zone;
 
   Sliver_perturber_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Perturb_options_3& options)
-      : mesh_(mesh), measure_(mesh, criteria, 1), options_(options), random_(options.seed)
+      : mesh_(mesh),
+        measure_(mesh, criteria, 1),
+        options_(options),
+        random_(options.seed),
+        random_trials_(options.random_trials),
+        most_insertions_(static_cast<std::size_t>(options.insertions * static_cast<double>(mesh.vertices().size())))
   {}
 
   Perturb_report_3 run()
@@ -95,10 +103,11 @@ public:
     for (double bound = options_.first_bound; goes_on(); bound += options_.step) {
       bound_ = std::cos((std::min)(bound, options_.target) * degree);
       for (int pass = 0; pass < options_.most_passes && goes_on(); ++pass)
-        if (run_pass() == 0) break;
+        if (run_pass() == 0 && insert_vertices() == 0) break;
       report_.after = degrees(worst_cosine());
       if (bound >= options_.target) break;
     }
+    insist();
     report_.seconds = timer_.seconds();
     return report_;
   }
@@ -128,6 +137,7 @@ private:
     Point point;
     double cosine = 2; ///< of the smallest dihedral angle that it makes
     std::size_t Perturb_report_3::*kind = nullptr;
+    Vertex_location_3 location{}; ///< of a new vertex
   };
 
   static double degrees(double cosine) { return std::acos((std::max)(-1.0, (std::min)(1.0, cosine))) / degree; }
@@ -143,6 +153,14 @@ private:
                                        c->vertex(3)->point());
   }
 
+  std::size_t count_slivers() const
+  {
+    std::size_t count = 0;
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles())
+      count += c->subdomain() != 0 && cosine(c) > bound_;
+    return count;
+  }
+
   double worst_cosine() const
   {
     double worst = -1;
@@ -152,6 +170,26 @@ private:
   }
 
   // ---- passes
+
+  /// The few cells that are left get ever more random places, and vertices inserted near them, until `patience` rounds
+  /// in a row bring nothing to speak of: moves that better some star a little are always to be found.
+  void insist()
+  {
+    const int trials = random_trials_;
+    std::size_t fewest = count_slivers();
+    for (int idle = 0, round = 0; idle < patience && round < most_rounds && fewest > 0 && goes_on(); ++round) {
+      random_trials_ = (std::min)(2 * random_trials_, 500);
+      const double before = report_.after;
+      run_pass();
+      insert_vertices();
+      report_.after = degrees(worst_cosine());
+      const std::size_t slivers = count_slivers();
+      ++idle;
+      if (slivers == 0 || report_.after > before + 0.1 || slivers + fewest / 50 < fewest) idle = 0;
+      fewest = (std::min)(fewest, slivers);
+    }
+    random_trials_ = trials;
+  }
 
   std::size_t run_pass()
   {
@@ -187,6 +225,83 @@ private:
     return all;
   }
 
+  // ---- cells that no vertex can leave
+
+  /// Inserts a vertex inside near each cell below the bound, where that helps; how many.
+  std::size_t insert_vertices()
+  {
+    std::vector<std::pair<double, std::array<int, 4>>> slivers; // by the ids of their vertices, since cells go
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
+      if (c->subdomain() == 0 || cosine(c) <= bound_) continue;
+      slivers.push_back({-cosine(c), {}});
+      for (int i = 0; i < 4; ++i) slivers.back().second[static_cast<std::size_t>(i)] = c->vertex(i)->id();
+      std::sort(slivers.back().second.begin(), slivers.back().second.end());
+    }
+    std::sort(slivers.begin(), slivers.end()); // the worst first, then by ids
+    std::size_t inserted = 0;
+    for (const auto& sliver : slivers) {
+      if (report_.insertions >= most_insertions_ || timer_.seconds() >= options_.time_limit) break;
+      Vertex_handle v[4];
+      for (std::size_t i = 0; i < 4; ++i) v[i] = mesh_.vertices()[static_cast<std::size_t>(sliver.second[i])];
+      Cell_handle c;
+      int i, j, k, l;
+      if (mesh_.triangulation().is_cell(v[0], v[1], v[2], v[3], c, i, j, k, l)) inserted += insert_near(c);
+    }
+    return inserted;
+  }
+
+  bool insert_near(Cell_handle c)
+  {
+    const Point center =
+        CGAL::centroid(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        shortest =
+            (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(c->vertex(i)->point(), c->vertex(j)->point())));
+    filling_.clear();
+    filling_cosines_.clear();
+    star_cosine_ = cosine(c);
+    const int subdomain = c->subdomain();
+    const double reach = std::sqrt(shortest);
+    int patch = -1;
+    for (int i = 0; i < 4; ++i)
+      if (c->vertex(i)->location().dimension == 2) patch = c->vertex(i)->location().index;
+    std::vector<Move> moves;
+    for (int trial = 0; trial < insertion_trials; ++trial) {
+      const auto random = [this] { return 2 * (random_() / 4294967295.0) - 1; };
+      const double x = random(), y = random(), z = random();
+      Move move{center + reach * Vector(x, y, z)};
+      Vertex_location_3 at{3, subdomain};
+      if (patch >= 0 && trial % 2 == 1) { // every other one on the boundary
+        at = {2, patch};
+        move.point = mesh_.oracle().project_on_patch(move.point, patch).point;
+      }
+      ++report_.trials;
+      if (at.dimension == 3 && mesh_.oracle().subdomain(move.point) != subdomain) continue;
+      if (!find_zone(move.point, c)) continue;
+      move.cosine = judge();
+      move.location = at;
+      if (move.cosine < 2) moves.push_back(move);
+    }
+    std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.cosine < b.cosine; });
+    if (moves.size() > most_tries) moves.resize(most_tries);
+    Cell_handle near = c; // c itself dies with an insertion
+    for (const Move& move : moves) {
+      if (!find_zone(move.point, near)) continue;
+      near = mesh_.insert(zone_, move.location)->cell();
+      mesh_.update();
+      if (is_acceptable()) {
+        ++report_.insertions;
+        return true;
+      }
+      ++report_.refused;
+      mesh_.remove_last();
+      near = mesh_.new_cells().front();
+    }
+    return false;
+  }
+
   // ---- one vertex
 
   /// Tries to move a vertex away from its slivers; whether it was moved.
@@ -203,12 +318,12 @@ private:
     std::vector<Move> moves = find_moves();
     for (const Move& move : moves) {
       if (!put(move.point, id)) continue;
-      if (is_acceptable(id)) {
+      if (is_acceptable()) {
         ++(report_.*move.kind);
         return true;
       }
       ++report_.refused;
-      filling_ = mesh_.take_away(mesh_.vertices()[static_cast<std::size_t>(id)]);
+      filling_ = mesh_.take_away_again(mesh_.vertices()[static_cast<std::size_t>(id)]);
       load_filling();
     }
     put(origin_, id);
@@ -261,7 +376,7 @@ private:
     }
     const auto is_good = [this](const Move& m) { return m.cosine <= bound_; };
     if (std::none_of(moves.begin(), moves.end(), is_good))
-      for (int k = 0; k < options_.random_trials; ++k) {
+      for (int k = 0; k < random_trials_; ++k) {
         const auto random = [this] { return 2 * (random_() / 4294967295.0) - 1; };
         const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
         try_move(Vector(x, y, z), options_.random_reach * random_() / 4294967295.0, &Perturb_report_3::by_chance,
@@ -269,7 +384,7 @@ private:
         if (!moves.empty() && is_good(moves.back())) break;
       }
     std::stable_sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.cosine < b.cosine; });
-    if (moves.size() > most_insertions) moves.resize(most_insertions);
+    if (moves.size() > most_tries) moves.resize(most_tries);
     return moves;
   }
 
@@ -287,10 +402,12 @@ private:
     if (move.cosine < 2) moves.push_back(move);
   }
 
-  bool find_zone(const Point& p)
+  bool find_zone(const Point& p) { return find_zone(p, filling_.front()); }
+
+  bool find_zone(const Point& p, Cell_handle near)
   {
     const auto& tr = mesh_.triangulation();
-    const Cell_handle start = tr.locate(p, filling_.front());
+    const Cell_handle start = tr.locate(p, near);
     return find_conflict_zone(tr, p, start, no_batch, zone_) == Zone_result::found;
   }
 
@@ -351,9 +468,8 @@ private:
   }
 
   /// Whether the boundary is still a surface around what changed, and every element made satisfies the criteria.
-  bool is_acceptable(int id)
+  bool is_acceptable()
   {
-    static_cast<void>(id);
     for (const int record : mesh_.new_facets()) {
       const Badness_3 badness = measure_.facet(mesh_.facets()[static_cast<std::size_t>(record)]);
       if (badness.is_bad()) return false;
@@ -371,16 +487,23 @@ private:
     seen_.erase(std::unique(seen_.begin(), seen_.end()), seen_.end());
     for (const int v : seen_)
       if (!has_topological_disk(mesh_, mesh_.vertices()[static_cast<std::size_t>(v)])) return false;
+    const auto is_seen = [this](Vertex_handle v) { return std::binary_search(seen_.begin(), seen_.end(), v->id()); };
+    for (const auto& e : mesh_.creases().edges())
+      if ((is_seen(e.source) || is_seen(e.target)) && measure_.crease_edge(e).is_bad()) return false;
     return true;
   }
 
   static constexpr int no_batch = -2;
-  static constexpr std::size_t most_insertions = 3;
+  static constexpr std::size_t most_tries = 3; ///< of the best places, how many are tried for good
+  static constexpr int insertion_trials = 200;
+  static constexpr int patience = 4, most_rounds = 40;
 
   Restricted& mesh_;
   Badness_measure_3<Restricted> measure_;
   const Perturb_options_3& options_;
   std::mt19937 random_;
+  int random_trials_;
+  std::size_t most_insertions_;
   internal::Timer timer_;
   Perturb_report_3 report_;
   double bound_ = 1; ///< cosine of the angle below which a cell is a sliver

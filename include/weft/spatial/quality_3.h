@@ -13,7 +13,10 @@
 
 #include <weft/errors.h>
 #include <weft/internal/coordinates_3.h>
+#include <weft/spatial/circumcenter_3.h>
 #include <weft/spatial/Tetrahedral_mesh_3.h>
+
+#include <CGAL/enum.h>
 
 #include <algorithm>
 #include <array>
@@ -160,6 +163,20 @@ private:
   }
 };
 
+/// Circumradius over shortest edge of a cell; exactly computed and then rounded where the cell is so flat that doubles
+/// lose its volume.
+template <class K, class Points>
+double radius_edge_ratio(const Points& points, const std::array<std::size_t, 4>& vertices,
+                         const Scaled_simplex_3<4>& cell, const Cell_measures_3& measures)
+{
+  const double longest = measures.longest;
+  if (std::abs(measures.six_volumes) > 1e-9 * longest * longest * longest)
+    return measures.circumradius / measures.shortest;
+  const auto &a = points[vertices[0]], &b = points[vertices[1]], &c = points[vertices[2]], &d = points[vertices[3]];
+  if (typename K::Orientation_3()(a, b, c, d) == CGAL::ZERO) return std::numeric_limits<double>::infinity();
+  return norm(minus(xyz(exact_circumcenter_3<K>(a, b, c, d)), xyz(a))) / cell.unscaled(measures.shortest);
+}
+
 /// Measures of one triangle; lengths in its own units.
 struct Facet_measures_3
 {
@@ -211,8 +228,7 @@ void measure_cells(const Tetrahedral_mesh_3<K>& mesh, Quality_3& quality)
                       {angle, c, {vertices[edge[0]], vertices[edge[1]]}});
     }
     ++quality.smallest_dihedrals[degree_bin(smallest)];
-    const double edge_ratio =
-        measures.shortest > 0 ? measures.circumradius / measures.shortest : std::numeric_limits<double>::infinity();
+    const double edge_ratio = radius_edge_ratio<K>(mesh.points, vertices, cell, measures);
     // fmin and fmax pass over the NaN that stands for "none yet".
     quality.largest_radius_edge_ratio = std::fmax(quality.largest_radius_edge_ratio, edge_ratio);
     quality.smallest_radius_ratio = std::fmin(quality.smallest_radius_ratio, measures.radius_ratio);

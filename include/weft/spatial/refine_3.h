@@ -107,12 +107,6 @@ private:
     double ratio;
     bool is_stuck; ///< no Steiner point is possible
   };
-  struct Bad_edge
-  {
-    double ratio;
-    const Crease_edge* edge;
-    bool is_needed; ///< see `is_left()`
-  };
   struct Bad_facet
   {
     int record;
@@ -170,11 +164,11 @@ private:
     bad_edges_.clear();
     for (const Crease_edge& e : mesh_.creases().edges()) {
       const Badness_3 badness = measure_.crease_edge(e);
-      if (badness.is_bad()) bad_edges_.push_back({badness.ratio, &e, is_needed(badness.reasons, e.is_tangled)});
+      if (badness.is_bad()) bad_edges_.emplace_back(badness.ratio, &e);
     }
     std::stable_sort(bad_edges_.begin(), bad_edges_.end(),
-                     [](const Bad_edge& a, const Bad_edge& b) { return a.ratio > b.ratio; });
-    for (const Bad_edge& b : bad_edges_) choose(*b.edge, b.is_needed);
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& [ratio, e] : bad_edges_) choose(*e, true);
     return bad_edges_.size();
   }
 
@@ -206,7 +200,10 @@ private:
       }
       ++bad;
       const Restricted_facet* worst = worst_facet_around(v);
-      if (worst) choose(*worst, false, false);
+      if (worst)
+        choose(*worst, false, false);
+      else if (v->location().dimension == 2)
+        choose_beside(v);
     }
     return bad;
   }
@@ -372,10 +369,40 @@ private:
   /// Below the size floor, where the same failure repeats itself at ever smaller scales: somewhere near.
   Point shaken_steiner_point(const Restricted_facet& f)
   {
-    const double step = 0.4 * std::sqrt(f.squared_radius);
+    return shaken(f.steiner, std::sqrt(f.squared_radius), f.patch);
+  }
+
+  /// A random point of a patch near one of its points: up to 0.4 radii away in each coordinate, before it is projected.
+  Point shaken(const Point& p, double radius, int patch)
+  {
+    const double step = 0.4 * radius;
     const auto random = [&] { return step * (2 * (random_() / 4294967295.0) - 1); };
     const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
-    return mesh_.oracle().project_on_patch(f.steiner + typename Kernel::Vector_3(x, y, z), f.patch).point;
+    return mesh_.oracle().project_on_patch(p + typename Kernel::Vector_3(x, y, z), patch).point;
+  }
+
+  /// For a vertex on a patch without any restricted facet: the surface enters and leaves its Voronoi cell through
+  /// facets alone. A second vertex of the patch near by gives the cell edges there.
+  Choice choose_beside(Vertex_handle v)
+  {
+    cells_.clear();
+    mesh_.triangulation().incident_cells(v, std::back_inserter(cells_));
+    double nearest = HUGE_VAL;
+    for (const Cell_handle c : cells_)
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i) != v)
+          nearest = (std::min)(nearest, CGAL::to_double(CGAL::squared_distance(c->vertex(i)->point(), v->point())));
+    Point p = v->point();
+    for (int k = 0; k < 20 && CGAL::to_double(CGAL::squared_distance(p, v->point())) < 0.01 * nearest; ++k)
+      p = shaken(v->point(), std::sqrt(nearest), v->location().index); // from outside of a tip, back to the tip
+    if (CGAL::to_double(CGAL::squared_distance(p, v->point())) < squared_floor_) return Choice::impossible;
+    const Zone_result result = find(p, mesh_.triangulation().locate(p, v->cell()), scratch());
+    if (result != Zone_result::found) return failure(result);
+    if (const Crease_edge* e = encroached_edge(chosen_[used_].zone)) {
+      ++encroachments_;
+      return choose(*e, false);
+    }
+    return accept(v->location());
   }
 
   Zone_result find_near(const Point& p, const Restricted_facet& f)
@@ -517,7 +544,7 @@ private:
   std::mt19937 random_;
   std::vector<Bad_cell> bad_cells_;
   std::vector<Bad_facet> bad_facets_;
-  std::vector<Bad_edge> bad_edges_;
+  std::vector<std::pair<double, const Crease_edge*>> bad_edges_;
   std::vector<unsigned> serials_; ///< by facet record, how often it was made
   std::vector<char> undecided_;   ///< by vertex, whether its topological disk has to be looked at
   std::vector<int> pool_, container_;

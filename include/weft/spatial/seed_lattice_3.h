@@ -9,10 +9,14 @@
 #define WEFT_SPATIAL_SEED_LATTICE_3_H
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/number_utils.h>
 #include <CGAL/spatial_sort.h>
+#include <CGAL/squared_distance_3.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 namespace weft {
@@ -43,6 +47,42 @@ std::vector<typename Oracle::Kernel::Point_3> interior_lattice(const Oracle& ora
   // Row by row, each point would see half of the surface: 23 s instead of 3 for 350,000 points.
   CGAL::spatial_sort(points.begin(), points.end());
   return points;
+}
+
+/// Drops the points that lie in a surface Delaunay ball of a restricted facet: inserted, they could end up on the
+/// boundary of the mesh. Linear in the points and in the balls that are larger than the clearance, expected.
+/// \param spacing,clearance as above.
+template <class Restricted, class Point>
+void drop_encroaching(const Restricted& mesh, double spacing, double clearance, std::vector<Point>& points)
+{
+  using Key = std::array<long, 3>;
+  const auto key_of = [spacing](double x, double y, double z) {
+    return Key{{std::lround(std::floor(x / spacing)), std::lround(std::floor(y / spacing)),
+                std::lround(std::floor(z / spacing))}};
+  };
+  std::map<Key, std::vector<std::size_t>> buckets;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    buckets[key_of(points[i].x(), points[i].y(), points[i].z())].push_back(i);
+  std::vector<char> encroaches(points.size(), false);
+  for (const auto& f : mesh.facets()) {
+    // No point comes closer to the boundary, on which the centers lie.
+    if (f.cell == typename Restricted::Cell_handle() || f.squared_radius < clearance * clearance) continue;
+    const double r = std::sqrt(f.squared_radius);
+    const Key low = key_of(f.steiner.x() - r, f.steiner.y() - r, f.steiner.z() - r),
+              high = key_of(f.steiner.x() + r, f.steiner.y() + r, f.steiner.z() + r);
+    for (long x = low[0]; x <= high[0]; ++x)
+      for (long y = low[1]; y <= high[1]; ++y)
+        for (long z = low[2]; z <= high[2]; ++z) {
+          const auto bucket = buckets.find({{x, y, z}});
+          if (bucket == buckets.end()) continue;
+          for (const std::size_t i : bucket->second)
+            if (CGAL::to_double(CGAL::squared_distance(points[i], f.steiner)) < f.squared_radius) encroaches[i] = true;
+        }
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!encroaches[i]) points[kept++] = points[i];
+  points.resize(kept);
 }
 
 } // namespace weft

@@ -22,8 +22,10 @@ bool is_one_cycle(std::vector<std::pair<Vertex, Vertex>>& edges)
   Vertex at = edges[0].second;
   for (std::size_t k = 1; k < edges.size(); ++k) {
     std::size_t next = k;
-    while (next < edges.size() && edges[next].first != at && edges[next].second != at) ++next;
-    if (next == edges.size() || at == first) return false; // a dead end, or closed too soon
+    std::size_t ways = 0;
+    for (std::size_t e = edges.size(); e-- > k;)
+      if (edges[e].first == at || edges[e].second == at) ++ways, next = e;
+    if (ways != 1 || at == first) return false; // a dead end or a fork, or closed too soon
     std::swap(edges[k], edges[next]);
     at = edges[k].first == at ? edges[k].second : edges[k].first;
   }
