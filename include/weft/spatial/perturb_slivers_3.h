@@ -171,8 +171,9 @@ private:
 
   // ---- passes
 
-  /// The few cells that are left get ever more random places, and vertices inserted near them, until `patience` rounds
-  /// in a row bring nothing to speak of: moves that better some star a little are always to be found.
+  /// The few cells that are left get ever more random places, vertices inserted near them and their neighbours moved,
+  /// until `patience` rounds in a row bring nothing to speak of: moves that better some star a little are always to be
+  /// found.
   void insist()
   {
     const int trials = random_trials_;
@@ -182,6 +183,7 @@ private:
       const double before = report_.after;
       run_pass();
       insert_vertices();
+      perturb_neighbours();
       report_.after = degrees(worst_cosine());
       const std::size_t slivers = count_slivers();
       ++idle;
@@ -302,16 +304,42 @@ private:
     return false;
   }
 
+  /// Vertices of the cells around slivers whose own vertices can't help (Tournois 2009, sec. 3.2.2.4).
+  std::size_t perturb_neighbours()
+  {
+    std::vector<int> around;
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
+      if (c->subdomain() == 0 || cosine(c) <= bound_) continue;
+      for (int i = 0; i < 4; ++i) {
+        cells_.clear();
+        mesh_.triangulation().incident_cells(c->vertex(i), std::back_inserter(cells_));
+        for (const Cell_handle n : cells_)
+          for (int k = 0; k < 4; ++k)
+            if (n->vertex(k)->location().dimension >= 2) around.push_back(n->vertex(k)->id());
+      }
+      if (around.size() > most_around) break;
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    std::size_t moved = 0;
+    for (const int id : around) {
+      if (timer_.seconds() >= options_.time_limit) break;
+      moved += perturb(id, true);
+    }
+    return moved;
+  }
+
   // ---- one vertex
 
   /// Tries to move a vertex away from its slivers; whether it was moved.
-  bool perturb(int id)
+  /// \param also_without whether it is to be moved, too, if none of them is its own.
+  bool perturb(int id, bool also_without = false)
   {
     const Vertex_handle v = mesh_.vertices()[static_cast<std::size_t>(id)];
     origin_ = v->point();
     location_ = v->location();
     load_star(v);
-    if (star_cosine_ <= bound_) return false; // mended meanwhile
+    if (!also_without && star_cosine_ <= bound_) return false; // mended meanwhile
     ++report_.tried_vertices;
     filling_ = mesh_.take_away(v);
     load_filling();
@@ -496,7 +524,8 @@ private:
   static constexpr int no_batch = -2;
   static constexpr std::size_t most_tries = 3; ///< of the best places, how many are tried for good
   static constexpr int insertion_trials = 200;
-  static constexpr int patience = 4, most_rounds = 40;
+  static constexpr int patience = 16, most_rounds = 80;
+  static constexpr std::size_t most_around = 20000; ///< vertices around slivers, counted as often as met
 
   Restricted& mesh_;
   Badness_measure_3<Restricted> measure_;
