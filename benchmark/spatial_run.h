@@ -140,7 +140,7 @@ inline void run_weft(const weft::Polyhedral_oracle_3<Spatial_kernel>& oracle, co
   criteria.facet_shape = criteria.cell_shape = bounds.shape;
   criteria.topology = input.is_creased();
   const Gauge gauge;
-  const auto result = weft::make_mesh_3(oracle, criteria);
+  const auto result = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement());
   gauge.stop(m);
   const weft::Mesh_report_3& report = result.report;
   m.vertices = static_cast<double>(report.vertices);

@@ -62,8 +62,10 @@ const std::vector<command_line::Option> known_options = {
      "edges of the input are sharp from this angle between the normals of their facets\non; 0 for none (default 60)"},
     {"--topology", "", "boundary facets keep to one patch between creases, crease edges to one crease"},
     {"--manifold", "", "the boundary of the mesh must be a 2-manifold"},
-    {"--min-dihedral", "DEG", "smallest dihedral angle to perturb slivers for; without it 20, if it can be reached"},
-    {"--no-optimise", "", "no smoothing after refinement; so far there is none anyway"},
+    {"--min-dihedral", "DEG",
+     "smallest dihedral angle to perturb slivers for, 90 to go as far as possible; without\nit 20, if it can be "
+     "reached"},
+    {"--no-optimise", "", "neither coarsening nor smoothing after refinement"},
     {"--no-perturb", "", "no perturbation of slivers"},
     {"--repair", "", "try to repair an input that isn't a closed surface, instead of refusing it"},
     {"--output", "FILE",
@@ -105,6 +107,10 @@ struct Request
   bool repair = false, quiet = false;
 };
 
+/// Dihedral angle of regular tetrahedra, in degrees. They don't fill space, so nothing can be asked for beyond it: that
+/// means as far as it goes.
+constexpr double regular = 70.53;
+
 /// A bound on shapes: at least 1, or 0 for none.
 double shape(const command_line::Arguments& arguments, const std::string& option, double otherwise)
 {
@@ -122,10 +128,13 @@ void read_criteria(const command_line::Arguments& arguments, Request& request)
   criteria.cell_shape = shape(arguments, "--cell-shape", criteria.cell_shape);
   criteria.topology = arguments.has("--topology");
   criteria.manifold = arguments.has("--manifold");
-  constexpr double regular = 70.52; // degrees; not even regular tetrahedra, which don't fill space, have more
-  request.min_dihedral = arguments.number("--min-dihedral", 0, regular).value_or(0);
-  if (!arguments.has("--no-perturb"))
-    request.options.min_dihedral_angle = arguments.has("--min-dihedral") ? request.min_dihedral : 20;
+  request.min_dihedral = arguments.number("--min-dihedral", 0, 90).value_or(0);
+  if (arguments.has("--no-optimise")) {
+    request.options.coarsen = false;
+    request.options.smoothing_sweeps = 0;
+  }
+  if (arguments.has("--min-dihedral")) request.options.min_dihedral_angle = request.min_dihedral;
+  if (arguments.has("--no-perturb")) request.options.min_dihedral_angle = 0;
   request.features.sharp_angle = arguments.number("--sharp-angle", 0, 180).value_or(request.features.sharp_angle);
   request.repair = arguments.has("--repair");
 }
@@ -212,7 +221,7 @@ std::string what_is_missing(const Request& request, const weft::Mesh_report_3& r
   if (report.bad_vertices > 0) append(std::to_string(report.bad_vertices) + " vertices without a topological disk");
   if (report.bare_patches > 0) append(std::to_string(report.bare_patches) + " patches without a facet");
   if (request.criteria.manifold && !report.manifold) append("the boundary isn't a manifold");
-  if (smallest_dihedral < request.min_dihedral)
+  if (smallest_dihedral < request.min_dihedral && request.min_dihedral < regular)
     append("the smallest dihedral angle is " + weft::internal::one_decimal(std::floor(10 * smallest_dihedral) / 10) +
            " degrees, not " + weft::internal::one_decimal(request.min_dihedral));
   if (report.stop_reason != weft::Stop_reason::criteria_met)

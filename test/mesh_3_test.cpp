@@ -4,6 +4,7 @@
 // keeps agrees with what the oracle says after every batch, and that every run ends, early or not, with a sound
 // triangulation and a report that tells what it is.
 
+#include "meshing_fixtures_3.h"
 #include "surface_fixtures.h"
 
 #include <weft/make_mesh_3.h>
@@ -32,125 +33,14 @@
 
 namespace {
 
-using surfaces::K;
-using surfaces::Point;
-using surfaces::Surface;
-using Oracle = weft::Polyhedral_oracle_3<K>;
-using Criteria = weft::Criteria_3<K>;
-using Mesher = weft::Spatial_mesher_3<Oracle>;
-using Mesh = weft::Tetrahedral_mesh_3<K>;
-using Options = weft::Mesh_options_3;
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/// \param angle from which on edges are sharp, in degrees.
-Oracle oracle_of(const Surface& surface, double angle = 60)
-{
-  return Oracle(weft::piecewise_smooth_complex(surface.points, surface.triangles, weft::Feature_options{angle}));
-}
-
-Criteria criteria_of(double size, double approximation, bool topology = true)
-{
-  Criteria criteria;
-  criteria.size = size;
-  criteria.approximation = approximation;
-  criteria.topology = topology;
-  return criteria;
-}
-
-/// V - E + F of the boundary.
-long euler_characteristic(const std::vector<std::array<std::size_t, 3>>& facets)
-{
-  std::set<std::size_t> vertices;
-  std::set<std::pair<std::size_t, std::size_t>> edges;
-  for (const auto& f : facets)
-    for (std::size_t i = 0; i < 3; ++i) {
-      vertices.insert(f[i]);
-      edges.insert(std::minmax(f[i], f[(i + 1) % 3]));
-    }
-  return static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) + static_cast<long>(facets.size());
-}
-
-std::size_t number_of_shells(const Mesh& mesh)
-{
-  std::vector<std::array<std::size_t, 2>> edges;
-  for (const auto& f : mesh.facets) edges.insert(edges.end(), {{f[0], f[1]}, {f[1], f[2]}});
-  return weft::internal::number_of_components(edges);
-}
-
-double volume_of_cells(const Mesh& mesh)
-{
-  double sum = 0;
-  for (const auto& c : mesh.cells)
-    sum += CGAL::volume(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]], mesh.points[c[3]]);
-  return sum;
-}
-
-double area(const Mesh& mesh)
-{
-  double sum = 0;
-  for (const auto& f : mesh.facets)
-    sum += std::sqrt(CGAL::squared_area(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]]));
-  return sum;
-}
-
-/// Whether two meshes are the same to the last bit.
-bool same(const Mesh& a, const Mesh& b)
-{
-  return a.points == b.points && a.locations == b.locations && a.cells == b.cells && a.facets == b.facets &&
-         a.patches == b.patches && a.edges == b.edges && a.creases == b.creases;
-}
-
-/// Whatever happened: the triangulation is sound, what is kept of it is right, and the report tells what is there.
-template <class Restricted>
-void check_consistent(const Restricted& restricted, const weft::Mesh_report_3& report)
-{
-  const auto agreement = weft::check_restricted_3(restricted);
-  INFO(agreement);
-  CHECK(agreement.ok());
-  const Mesh mesh = weft::tetrahedral_mesh(restricted);
-  CHECK(report.vertices == mesh.points.size());
-  CHECK(report.cells == mesh.cells.size());
-  CHECK(report.facets == mesh.facets.size());
-  CHECK(report.crease_edges == mesh.edges.size());
-  CHECK(report.vertices ==
-        report.corner_vertices + report.crease_vertices + report.patch_vertices + report.interior_vertices);
-  CHECK(weft::check_structure_3(mesh).ok());
-  CHECK(weft::check_orientation_3(mesh).ok());
-  CHECK(weft::check_boundary_3(mesh).ok());
-  if (!mesh.cells.empty()) CHECK(report.manifold == weft::check_manifold_3(mesh).ok());
-  CHECK(report.ok() == (report.stop_reason == weft::Stop_reason::criteria_met));
-}
-
-/// The mesh meets its criteria and is a mesh of the whole domain.
-void check_complete(const Mesh& mesh, const Oracle& oracle, const Criteria& criteria, double approximation)
-{
-  const auto& complex = oracle.complex();
-  weft::Validity_3 validity = weft::validate_3(mesh);
-  validity += weft::check_criteria_3(mesh, criteria);
-  validity += weft::check_distances_3(mesh, oracle);
-  validity += weft::check_features_3(mesh, complex);
-  INFO(validity);
-  CHECK(validity.ok());
-  const std::set<int> patches(mesh.patches.begin(), mesh.patches.end()),
-      creases(mesh.creases.begin(), mesh.creases.end());
-  CHECK(patches.size() == static_cast<std::size_t>(complex.number_of_patches));
-  CHECK(creases.size() == complex.creases.size());
-  CHECK(number_of_shells(mesh) == static_cast<std::size_t>(complex.number_of_shells));
-  CHECK(euler_characteristic(mesh.facets) == euler_characteristic(complex.triangles));
-  const double volume = surfaces::volume(complex.points, complex.triangles);
-  CHECK(std::abs(volume_of_cells(mesh) - volume) <= 2 * approximation * area(mesh) + 1e-9 * volume);
-  const auto distance = weft::hausdorff_3(mesh, complex.points, complex.triangles, 5000);
-  CHECK(distance.two_sided() <= 3 * approximation);
-}
+using namespace meshing;
 
 /// Meshes a surface, and checks everything that holds for a mesh that meets its criteria.
 weft::Mesh_report_3 check_meshing(const Surface& surface, const Criteria& criteria, double approximation,
                                   double angle = 60)
 {
   const Oracle oracle = oracle_of(surface, angle);
-  const auto [restricted, report] = weft::make_mesh_3(oracle, criteria);
+  const auto [restricted, report] = weft::make_mesh_3(oracle, criteria, refinement());
   INFO(report);
   CHECK(report.ok());
   CHECK(report.manifold);
@@ -218,7 +108,7 @@ TEST_CASE("a box whose faces lie in those of its bounding box, of one or of many
   for (const int n : {1, 4}) {
     const Surface box = surfaces::moved(surfaces::box(n, n, n), 1. / n, 0, 0, 0);
     const Oracle oracle = oracle_of(box);
-    const auto mesh = weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.3, 0.01)).mesh);
+    const auto mesh = weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.3, 0.01), refinement()).mesh);
     CHECK(volume_of_cells(mesh) == Approx(1).epsilon(1e-12));
     CHECK(area(mesh) == Approx(6).epsilon(1e-12));
   }
@@ -270,7 +160,7 @@ TEST_CASE("scaling by a power of two scales the mesh and changes nothing else")
 {
   const auto mesh_scaled_by = [](double scale) {
     const Oracle oracle = oracle_of(surfaces::moved(surfaces::cylinder(20), scale, 0, 0, 0));
-    return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.5 * scale, 0.02 * scale)).mesh);
+    return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.5 * scale, 0.02 * scale), refinement()).mesh);
   };
   Mesh mesh = mesh_scaled_by(1);
   const Mesh large = mesh_scaled_by(1024);
@@ -285,7 +175,7 @@ TEST_CASE("after every batch everything kept agrees with what the oracle says")
         surfaces::nested_spheres({0.5}, 1), surfaces::wedge(30), surfaces::moved(surfaces::cube(), 1, 1e6, 1e6, 1e6)}) {
     const Oracle oracle = oracle_of(surface);
     const Criteria criteria = criteria_of(0.7, 0.05);
-    Options options;
+    Options options = refinement();
     const Mesher* running = nullptr;
     std::size_t calls = 0;
     options.visitor = [&](const weft::Progress& progress) {
@@ -312,7 +202,7 @@ TEST_CASE("each criterion can be asked for by itself")
     Criteria criteria = criteria_of(size, approximation, false);
     criteria.facet_shape = facet_shape;
     criteria.cell_shape = cell_shape;
-    Options options;
+    Options options = refinement();
     options.lattice = false;
     const auto [restricted, report] = weft::make_mesh_3(oracle, criteria, options);
     INFO(report);
@@ -334,7 +224,7 @@ TEST_CASE("a size far beyond the model still gives a mesh of it")
   for (const Surface& surface :
        {surfaces::cube(), surfaces::sphere(3), surfaces::torus(30, 15), surfaces::cylinder(20)}) {
     const Oracle oracle = oracle_of(surface);
-    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria_of(1e9, 0));
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria_of(1e9, 0), refinement());
     INFO(report);
     CHECK(report.ok());
     const Mesh mesh = weft::tetrahedral_mesh(restricted);
@@ -352,10 +242,10 @@ TEST_CASE("size and approximation may be fields of the place")
   criteria.size = graded;
   const auto report = check_meshing(sphere, criteria, 0.05);
   criteria.size = 0.08;
-  CHECK(report.vertices < weft::make_mesh_3(oracle_of(sphere), criteria).report.vertices);
+  CHECK(report.vertices < weft::make_mesh_3(oracle_of(sphere), criteria, refinement()).report.vertices);
 
   // A constant and a field that is constant ask for the same, but the field gets no lattice.
-  Options options;
+  Options options = refinement();
   options.lattice = false;
   const Oracle oracle = oracle_of(sphere);
   criteria = criteria_of(0.3, 0.02);
@@ -389,9 +279,9 @@ TEST_CASE("a field that fails ends the run with its exception and leaves nothing
       Criteria criteria = criteria_of(0.4, 0.02);
       (as_size ? criteria.size : criteria.approximation) = field;
       if (throws)
-        CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria), Own_error);
+        CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria, refinement()), Own_error);
       else
-        CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria), weft::Option_error);
+        CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria, refinement()), weft::Option_error);
     }
     CHECK(token.use_count() == 2); // here and in `field`
   };
@@ -405,7 +295,7 @@ TEST_CASE("a field that fails ends the run with its exception and leaves nothing
 TEST_CASE("criteria and options out of range are refused")
 {
   const Oracle oracle = oracle_of(surfaces::cube());
-  const auto refuses = [&oracle](const Criteria& criteria, const Options& options = {}) {
+  const auto refuses = [&oracle](const Criteria& criteria, const Options& options = refinement()) {
     CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria, options), weft::Option_error);
   };
   for (const double bad : {0., -1., not_a_number, infinite}) refuses(criteria_of(bad, 0.01));
@@ -438,7 +328,7 @@ TEST_CASE("a run is repeatable to the last bit, with any number of threads")
       oracle_of(surfaces::together(surfaces::sphere(4), surfaces::moved(surfaces::cube(), 1, 2, 0, 0)));
   const Criteria criteria = criteria_of(0.12, 0.005);
   const auto mesh = [&](int threads, unsigned seed) {
-    Options options;
+    Options options = refinement();
     options.threads = threads;
     options.seed = seed;
     return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).mesh);
@@ -475,17 +365,17 @@ TEST_CASE("a run that a limit ends says so and leaves a sound triangulation")
   };
   for (const std::size_t most : {0, 1, 3, 10, 40, 200, 600}) {
     INFO("at most " << most << " vertices");
-    Options options;
+    Options options = refinement();
     options.max_vertices = most;
     CHECK(run(options, weft::Stop_reason::vertex_budget) <= (std::max)(most, std::size_t(6))); // three on each rim
   }
   for (const std::size_t most : {0, 1, 2, 5, 20}) {
-    Options options;
+    Options options = refinement();
     options.max_batches = most;
     run(options, weft::Stop_reason::iteration_limit);
   }
   for (const double seconds : {0., 1e-3, 1e-2}) {
-    Options options;
+    Options options = refinement();
     options.time_limit = seconds;
     run(options, weft::Stop_reason::time_limit);
   }
@@ -495,7 +385,7 @@ TEST_CASE("a run that is cancelled at any moment says so and leaves a sound tria
 {
   const Oracle oracle = oracle_of(surfaces::cylinder(12));
   const Criteria criteria = criteria_of(0.5, 0.05);
-  Options options;
+  Options options = refinement();
   std::size_t batches = 1;
   for (std::size_t last = 1; last <= batches; ++last) {
     std::size_t calls = 0;
@@ -506,7 +396,7 @@ TEST_CASE("a run that is cancelled at any moment says so and leaves a sound tria
     CHECK(report.batches == last);
     CHECK(calls == last);
     check_consistent(restricted, report);
-    if (last == 1) batches = weft::make_mesh_3(oracle, criteria).report.batches;
+    if (last == 1) batches = weft::make_mesh_3(oracle, criteria, refinement()).report.batches;
   }
   CHECK(batches > 10);
 }
@@ -514,7 +404,7 @@ TEST_CASE("a run that is cancelled at any moment says so and leaves a sound tria
 TEST_CASE("an exception from the visitor goes to the caller")
 {
   const Oracle oracle = oracle_of(surfaces::cube());
-  Options options;
+  Options options = refinement();
   options.visitor = [](const weft::Progress&) -> bool { throw std::runtime_error("enough"); };
   CHECK_THROWS_WITH(weft::make_mesh_3(oracle, criteria_of(0.5, 0.01), options), "enough");
 }
@@ -527,7 +417,7 @@ TEST_CASE("at acute dihedral angles a run ends by itself, with few vertices, and
         INFO("a wedge of " << angle << " degrees, sharp from " << sharp << ", topology " << topology);
         const Oracle oracle = oracle_of(surfaces::wedge(angle), sharp);
         const Criteria criteria = criteria_of(0.2, 0.01, topology);
-        const auto [restricted, report] = weft::make_mesh_3(oracle, criteria);
+        const auto [restricted, report] = weft::make_mesh_3(oracle, criteria, refinement());
         INFO(report);
         CHECK(report.cells > 0);
         CHECK(report.vertices < 20000);
@@ -555,7 +445,7 @@ TEST_CASE("creases that meet at a sharp angle don't split each other without end
     for (Point& p : spike.points) p = Point(width * p.x(), width * p.y(), p.z());
     const Oracle oracle = oracle_of(spike);
     Criteria criteria = criteria_of(0.1, 0.01);
-    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria);
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria, refinement());
     INFO(report);
     CHECK(report.bad_edges.elements == 0);
     CHECK(report.vertices < 20000);
@@ -575,7 +465,7 @@ TEST_CASE("perturbation raises the smallest dihedral angle and breaks nothing th
                         Case{surfaces::cylinder(40), 0.4, 0.02, 15, 10}, Case{surfaces::cube(), 0.2, 0, 20, 15}}) {
     const Oracle oracle = oracle_of(c.surface);
     const Criteria criteria = criteria_of(c.size, c.approximation);
-    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria, refinement());
     REQUIRE(refined.ok());
     weft::Perturb_options_3 options;
     options.target = c.target;
@@ -603,15 +493,15 @@ TEST_CASE("perturbation is repeatable to the last bit and may be stopped between
 {
   const Oracle oracle = oracle_of(surfaces::torus(48, 24));
   const Criteria criteria = criteria_of(0.3, 0.02);
-  Options options;
+  Options options = refinement();
   options.min_dihedral_angle = 18;
   const auto first = weft::make_mesh_3(oracle, criteria, options),
              second = weft::make_mesh_3(oracle, criteria, options);
   CHECK(same(weft::tetrahedral_mesh(first.mesh), weft::tetrahedral_mesh(second.mesh)));
   CHECK(first.report.perturbed > 0);
-  CHECK(first.report.smallest_dihedral > first.report.refined_smallest_dihedral);
+  CHECK(first.report.smallest_dihedral > first.report.smoothed_smallest_dihedral);
   for (const int calls : {0, 1, 3}) {
-    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria, refinement());
     weft::Perturb_options_3 perturb;
     int left = calls;
     perturb.go_on = [&](double) { return left-- > 0; };
@@ -625,7 +515,7 @@ TEST_CASE("perturbation is repeatable to the last bit and may be stopped between
 TEST_CASE("options of perturbation out of range are refused")
 {
   const Oracle oracle = oracle_of(surfaces::cube());
-  auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.5, 0));
+  auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.5, 0), refinement());
   const auto refused = [&, &mesh = mesh](auto change) {
     weft::Perturb_options_3 options;
     change(options);
@@ -642,7 +532,7 @@ TEST_CASE("options of perturbation out of range are refused")
 TEST_CASE("a point that is a vertex already isn't inserted again")
 {
   const Oracle oracle = oracle_of(surfaces::cube());
-  auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05));
+  auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05), refinement());
   const auto vertices = result.mesh.vertices();
   for (const auto v : vertices) CHECK(result.mesh.insert(v->point(), v->location()) == v);
   CHECK(result.mesh.vertices().size() == vertices.size());
@@ -673,7 +563,7 @@ TEST_CASE("edges form one cycle only if that doesn't meet itself")
 TEST_CASE("what disagrees in a restricted triangulation is found")
 {
   const Oracle oracle = oracle_of(surfaces::l_shape());
-  auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05));
+  auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05), refinement());
   auto& mesh = result.mesh;
   const auto faults = [&mesh] { return weft::check_restricted_3(mesh).count(weft::Fault_kind_3::restricted); };
   REQUIRE(faults() == 0);

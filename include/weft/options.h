@@ -67,7 +67,11 @@ struct Mesh_options_2
 /// Options of `make_mesh_3()`.
 struct Mesh_options_3
 {
-  double min_dihedral_angle = 0; ///< smallest dihedral angle in degrees to perturb slivers for; 0: refinement alone
+  bool coarsen = true; ///< take away vertices that no criterion needs
+  /// Sweeps of Natural ODT smoothing, which keeps all criteria; 0: none. With 3 / 6 / 20 the elephant ends with 3325 /
+  /// 3229 / 3253 vertices, in 3.3 / 3.1 / 3.7 s.
+  int smoothing_sweeps = 6;
+  double min_dihedral_angle = 20; ///< smallest dihedral angle in degrees to perturb slivers for; 0: no perturbation
   double size_floor = 0; ///< no Steiner point closer to a vertex, in the input's units; 0: chosen from the criteria
   bool lattice = true;   ///< fill thick parts with a body-centred cubic lattice where the size is constant
   double initial_relaxation = 2;       ///< factor by which criteria are loosened for the first mesh
@@ -78,12 +82,23 @@ struct Mesh_options_3
   int threads = 1; ///< threads to use where oneTBB is linked; never changes the result
   Visitor visitor; ///< sees progress, may stop the run; may be empty
 
+  /// Options for refinement without any optimisation.
+  static Mesh_options_3 refinement()
+  {
+    Mesh_options_3 options;
+    options.coarsen = false;
+    options.smoothing_sweeps = 0;
+    options.min_dihedral_angle = 0;
+    return options;
+  }
+
   /// \throws Option_error naming the first option outside its range.
   void check() const
   {
     const auto require = [](bool holds, const char* what) {
       if (!holds) throw Option_error(what);
     };
+    require(smoothing_sweeps >= 0, "smoothing_sweeps must not be negative");
     require(min_dihedral_angle >= 0 && min_dihedral_angle <= 90, "min_dihedral_angle must lie in [0, 90] degrees");
     require(size_floor >= 0, "size_floor must not be negative");
     require(initial_relaxation >= 1, "initial_relaxation must be at least 1");

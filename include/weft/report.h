@@ -121,9 +121,16 @@ struct Mesh_report_3
   std::size_t bad_vertices = 0; ///< vertices without a topological disk of boundary facets or crease edges
   std::size_t bare_patches = 0; ///< patches without a boundary facet
 
-  double refined_smallest_dihedral = 0; ///< degrees, before perturbation; 0 if there was none
-  std::size_t perturbed = 0;            ///< vertex moves of the perturbation
-  std::size_t perturb_insertions = 0;   ///< vertices it inserted where no move helped
+  double refined_smallest_dihedral = 0;  ///< degrees, after refinement; 0 if no optimisation followed
+  double smoothed_smallest_dihedral = 0; ///< degrees, before perturbation; 0 if there was none
+  std::size_t coarsened = 0;             ///< vertices taken away since no criterion needs them
+  std::size_t smoothing_sweeps = 0;      ///< that were kept
+  std::size_t smoothing_moves = 0;       ///< of vertices
+  std::size_t smoothing_locked = 0;      ///< vertices that stayed among excellent cells, summed over sweeps
+  std::size_t smoothing_rejected = 0;    ///< moves taken back since a criterion would have been violated
+  std::size_t moved_in_place = 0, moved_one_by_one = 0, moved_by_rebuilding = 0; ///< moves of smoothing, by the way
+  std::size_t perturbed = 0;                                                     ///< vertex moves of the perturbation
+  std::size_t perturb_insertions = 0; ///< vertices it inserted where no move helped
 
   std::size_t batches = 0;
   std::size_t candidates = 0;       ///< Steiner points whose conflict zone was looked for
@@ -159,9 +166,15 @@ inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
       << "dihedral angles " << r.smallest_dihedral << " to " << r.largest_dihedral << " degrees, boundary "
       << (r.manifold ? "a closed manifold" : "not manifold") << "\n"
       << name(r.stop_reason) << "\n";
+  if (r.coarsened) out << "coarsening: " << counted(r.coarsened, "vertex", "vertices") << " taken away\n";
+  if (r.smoothing_sweeps)
+    out << "smoothing: from " << r.refined_smallest_dihedral << " degrees, "
+        << counted(r.smoothing_sweeps, "sweep", "sweeps") << ", " << counted(r.smoothing_moves, "move", "moves") << ", "
+        << r.smoothing_rejected << " rejected\n";
   if (r.perturbed)
-    out << "perturbation: from " << r.refined_smallest_dihedral << " degrees, " << counted(r.perturbed, "move", "moves")
-        << ", " << counted(r.perturb_insertions, "insertion", "insertions") << "\n";
+    out << "perturbation: from " << r.smoothed_smallest_dihedral << " degrees, "
+        << counted(r.perturbed, "move", "moves") << ", " << counted(r.perturb_insertions, "insertion", "insertions")
+        << "\n";
   unsatisfied(r.bad_edges, "crease edges");
   unsatisfied(r.bad_facets, "facets");
   unsatisfied(r.bad_cells, "cells");

@@ -33,8 +33,13 @@ inline void append_json(Json_text& json, const Mesh_report_3& r)
   json.member("cells", r.cells).member("facets", r.facets).member("crease_edges", r.crease_edges);
   json.member("smallest_dihedral", r.smallest_dihedral).member("largest_dihedral", r.largest_dihedral);
   json.member("largest_facet_shape", r.largest_facet_shape).member("largest_cell_shape", r.largest_cell_shape);
-  json.member("refined_smallest_dihedral", r.refined_smallest_dihedral).member("perturbed", r.perturbed);
-  json.member("perturb_insertions", r.perturb_insertions);
+  json.member("refined_smallest_dihedral", r.refined_smallest_dihedral);
+  json.member("smoothed_smallest_dihedral", r.smoothed_smallest_dihedral);
+  json.member("coarsened", r.coarsened).member("smoothing_sweeps", r.smoothing_sweeps);
+  json.member("smoothing_moves", r.smoothing_moves).member("smoothing_locked", r.smoothing_locked);
+  json.member("smoothing_rejected", r.smoothing_rejected).member("moved_in_place", r.moved_in_place);
+  json.member("moved_one_by_one", r.moved_one_by_one).member("moved_by_rebuilding", r.moved_by_rebuilding);
+  json.member("perturbed", r.perturbed).member("perturb_insertions", r.perturb_insertions);
   append_json(json, "bad_edges", r.bad_edges);
   append_json(json, "bad_facets", r.bad_facets);
   append_json(json, "bad_cells", r.bad_cells);

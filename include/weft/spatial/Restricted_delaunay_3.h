@@ -14,6 +14,7 @@
 #define WEFT_SPATIAL_RESTRICTED_DELAUNAY_3_H
 
 #include <weft/internal/parallel_for.h>
+#include <weft/relocate/Relocator_3.h>
 #include <weft/spatial/circumcenter_3.h>
 #include <weft/spatial/Conflict_zone_3.h>
 #include <weft/spatial/Crease_tracer_3.h>
@@ -22,6 +23,9 @@
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
@@ -145,6 +149,24 @@ public:
     return filling;
   }
 
+  /// Classifies what fills the place of a vertex that was taken away; it may still be put back.
+  /// \param filling as returned by `take_away()`.
+  void settle(const std::vector<Cell_handle>& filling)
+  {
+    new_cells_ = filling;
+    update();
+  }
+
+  /// Gives the vertices new ids, in the order of the old ones, after some of them were taken away for good.
+  void close_gaps()
+  {
+    vertices_.erase(std::remove(vertices_.begin(), vertices_.end(), Vertex_handle()), vertices_.end());
+    for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i]->set_id(static_cast<int>(i));
+    touched_.assign(vertices_.size(), update_number_);
+    creases_are_stale_ = true;
+    update();
+  }
+
   /// Removes the vertex that was inserted last and classifies what fills its place.
   void remove_last()
   {
@@ -176,6 +198,8 @@ public:
   {
     ++batches_;
     for (const Cell_handle c : zone.cells) c->set_batch(batches_);
+    for (const Cell_handle c : filling)
+      if (c->is_classified()) declassify(c);
     new_cells_.clear();
     for (const Cell_handle c : filling)
       if (c->batch() != batches_) new_cells_.push_back(c);
@@ -232,6 +256,38 @@ public:
     classify();
   }
 
+  /// Moves vertices, by their ids, to new places and classifies what that changes. They move all at once and flips
+  /// restore the triangulation; where those get stuck, or too many vertices would have to be moved one by one, it is
+  /// built anew. Vertex handles don't survive, ids do. If a target coincides with another vertex, its vertex may stay
+  /// where it was.
+  /// \pre targets lie inside the box; those of vertices on patches and creases lie on them.
+  Relocation_counts_3 relocate(const std::vector<int>& ids, const std::vector<Point>& targets)
+  {
+    std::vector<Vertex_handle> moving;
+    for (const int id : ids) moving.push_back(vertices_[static_cast<std::size_t>(id)]);
+    Relocation_counts_3 counts;
+    std::vector<std::size_t> deferred;
+    Relocator_3<Triangulation> relocator(*tr_);
+    const auto changing = [this](Cell_handle c) { declassify(c); };
+    relocator.place(moving, targets, changing, deferred);
+    const bool alone = static_cast<double>(deferred.size()) < most_alone * static_cast<double>(vertices_.size());
+    if (alone) relocator.restore_delaunay(changing, counts);
+    if (alone && counts.stuck == 0) {
+      counts.in_place = ids.size() - deferred.size();
+      for (const std::size_t i : deferred) ++(move_alone(ids[i], targets[i]) ? counts.one_by_one : counts.put_back);
+    } else {
+      ++counts.rebuilds;
+      const bool done = rebuild(ids, targets, relocator.old_points());
+      (done ? counts.rebuilt : counts.put_back) = ids.size();
+    }
+    creases_are_stale_ = true;
+    new_cells_.clear();
+    for (const Cell_handle c : tr_->finite_cell_handles())
+      if (!c->is_classified()) new_cells_.push_back(c);
+    update();
+    return counts;
+  }
+
   /// Classifies what insertions have changed: cells, facets and crease edges.
   void update()
   {
@@ -265,6 +321,7 @@ public:
 
 private:
   static constexpr int no_batch = -2;
+  static constexpr double most_alone = 0.05; ///< part of the vertices to move one by one rather than to build anew
 
   /// The Voronoi edge of a facet against the boundary.
   struct Voronoi_edge
@@ -290,6 +347,71 @@ private:
     record_facets();
     ++update_number_;
     new_cells_.clear();
+  }
+
+  void declassify(Cell_handle c)
+  {
+    for (int i = 0; i < 4; ++i) forget_facet(c, i);
+    c->set_classified(false);
+  }
+
+  /// Takes a vertex away and inserts it at its target, or where it was; whether it got there.
+  bool move_alone(int id, const Point& target)
+  {
+    const Vertex_handle v = vertices_[static_cast<std::size_t>(id)];
+    const Point old = v->point();
+    const Vertex_location_3 location = v->location();
+    const Cell_handle near = take_away(v).front();
+    Zone zone;
+    const bool found =
+        find_conflict_zone(*tr_, target, tr_->locate(target, near), no_batch, zone) == Zone_result::found;
+    if (!found) find_conflict_zone(*tr_, old, tr_->locate(old, near), no_batch, zone);
+    insert(zone, location, id);
+    new_cells_.clear();
+    return found;
+  }
+
+  /// Builds the triangulation anew with some vertices elsewhere; with the old ones where two would coincide, and
+  /// false.
+  bool rebuild(const std::vector<int>& ids, const std::vector<Point>& targets, const std::vector<Point>& old)
+  {
+    std::vector<Point> points;
+    std::vector<Vertex_location_3> locations;
+    for (const Vertex_handle v : vertices_) {
+      points.push_back(v->point());
+      locations.push_back(v->location());
+    }
+    const auto set = [&](const std::vector<Point>& values) {
+      for (std::size_t i = 0; i < ids.size(); ++i) points[static_cast<std::size_t>(ids[i])] = values[i];
+    };
+    set(targets);
+    if (build(points, locations)) return true;
+    set(old);
+    build(points, locations);
+    return false;
+  }
+
+  /// Whether all points are distinct.
+  bool build(const std::vector<Point>& points, const std::vector<Vertex_location_3>& locations)
+  {
+    std::vector<std::size_t> order(points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    using Points = typename CGAL::Pointer_property_map<Point>::const_type;
+    CGAL::spatial_sort(order.begin(), order.end(),
+                       CGAL::Spatial_sort_traits_adapter_3<Kernel, Points>(CGAL::make_property_map(points)));
+    tr_->clear();
+    insert_box();
+    facets_.clear();
+    free_facets_.clear();
+    Cell_handle hint;
+    for (const std::size_t i : order) {
+      const Vertex_handle v = tr_->insert(points[i], hint);
+      v->set_location(locations[i]);
+      v->set_id(static_cast<int>(i));
+      vertices_[i] = v;
+      hint = v->cell();
+    }
+    return tr_->number_of_vertices() == points.size() + 8;
   }
 
   void touch(Vertex_handle v)

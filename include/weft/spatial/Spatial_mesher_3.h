@@ -9,12 +9,15 @@
 #include <weft/internal/timer.h>
 #include <weft/options.h>
 #include <weft/report.h>
+#include <weft/spatial/coarsen_3.h>
 #include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/perturb_slivers_3.h>
 #include <weft/spatial/refine_3.h>
 #include <weft/spatial/report_3.h>
 #include <weft/spatial/Restricted_delaunay_3.h>
 #include <weft/spatial/seed_lattice_3.h>
+#include <weft/spatial/smooth_3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +56,7 @@ public:
     if (go_on && options_.lattice && criteria_.size.is_constant()) insert_lattice();
     begin_stage("interior", Stage::refinement);
     go_on = go_on && refine(1, true);
+    go_on = go_on && optimise();
     begin_stage("perturbation", Stage::polishing);
     if (go_on && options_.min_dihedral_angle > 0) perturb();
     end_stage();
@@ -161,19 +165,85 @@ private:
     return go_on;
   }
 
+  /// Interleaves what Alg. 5 does, in another order: smoothing the coarse mesh and refining it then, as there,
+  /// takes 1.9 times the vertices on the elephant, since it moves vertices away from the folds that attracted them.
+  /// Criteria come first, then vertices are taken away as long as they hold, and smoothing, which keeps them too, makes
+  /// room for more of that: 4362, 3587 and 3229 vertices. What couldn't be refined before gets another chance at the
+  /// end.
+  bool optimise()
+  {
+    if (!options_.coarsen && options_.smoothing_sweeps == 0) return true;
+    report_.refined_smallest_dihedral = smallest_dihedral();
+    if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
+    begin_stage("refinement after smoothing", Stage::refinement);
+    return refine(1, true);
+  }
+
+  bool coarsen()
+  {
+    begin_stage("coarsening", Stage::polishing);
+    if (!options_.coarsen) return true;
+    Coarsen_options_3 options;
+    options.time_limit = time_left();
+    options.go_on = [this] { return goes_on(); };
+    report_.coarsened += coarsen_3(mesh_, criteria_, options).removed;
+    return may_go_on();
+  }
+
+  bool smooth()
+  {
+    begin_stage("smoothing", Stage::relaxation);
+    if (options_.smoothing_sweeps == 0) return true;
+    Smooth_options_3 options;
+    options.max_sweeps = options_.smoothing_sweeps;
+    options.threads = options_.threads;
+    options.time_limit = time_left();
+    options.go_on = [this] { return goes_on(); };
+    const Smooth_report_3 result = smooth_3(mesh_, criteria_, options);
+    report_.smoothing_sweeps += result.sweeps;
+    report_.smoothing_moves += result.moves;
+    report_.smoothing_locked += result.locked;
+    report_.smoothing_rejected += result.rejected;
+    report_.moved_in_place += result.relocations.in_place;
+    report_.moved_one_by_one += result.relocations.one_by_one;
+    report_.moved_by_rebuilding += result.relocations.rebuilt;
+    return may_go_on();
+  }
+
+  /// For optimisers: the visitor isn't called again once it has ended the run.
+  bool goes_on() { return report_.stop_reason != Stop_reason::cancelled && (visit(0) || stop(Stop_reason::cancelled)); }
+
+  double time_left() const { return (std::max)(0.0, options_.time_limit - timer_.seconds()); }
+
+  /// Whether neither the visitor nor the clock has ended the run.
+  bool may_go_on()
+  {
+    if (report_.stop_reason == Stop_reason::cancelled) return false;
+    return timer_.seconds() < options_.time_limit || stop(Stop_reason::time_limit);
+  }
+
+  double smallest_dihedral() const
+  {
+    double worst = -1;
+    for (const auto c : mesh_.triangulation().finite_cell_handles())
+      if (c->subdomain() != 0)
+        worst = (std::max)(worst, cosine_of_smallest_dihedral(c->vertex(0)->point(), c->vertex(1)->point(),
+                                                              c->vertex(2)->point(), c->vertex(3)->point()));
+    return std::acos((std::max)(-1.0, (std::min)(1.0, worst))) * 180 / 3.14159265358979323846;
+  }
+
   void perturb()
   {
     Perturb_options_3 options;
     options.target = options_.min_dihedral_angle;
     options.seed = options_.seed + 2;
-    options.time_limit = options_.time_limit - timer_.seconds();
-    if (!(options.time_limit > 0)) return static_cast<void>(stop(Stop_reason::time_limit));
-    options.go_on = [this](double) { return visit(0) || stop(Stop_reason::cancelled); };
+    options.time_limit = time_left();
+    options.go_on = [this](double) { return goes_on(); };
     const Perturb_report_3 result = perturb_slivers_3(mesh_, criteria_, options);
-    report_.refined_smallest_dihedral = result.before;
+    report_.smoothed_smallest_dihedral = result.before;
     report_.perturbed = result.by_radius + result.by_volume + result.by_chance;
     report_.perturb_insertions = result.insertions;
-    if (timer_.seconds() >= options_.time_limit) stop(Stop_reason::time_limit);
+    may_go_on();
   }
 
   bool stop(Stop_reason reason)
@@ -210,7 +280,11 @@ private:
 
   void end_stage()
   {
-    if (!stage_name_.empty()) report_.stage_seconds.emplace_back(stage_name_, timer_.seconds() - stage_begin_);
+    if (stage_name_.empty()) return;
+    auto& stages = report_.stage_seconds;
+    auto stage = std::find_if(stages.begin(), stages.end(), [this](const auto& s) { return s.first == stage_name_; });
+    if (stage == stages.end()) stage = stages.emplace(stage, stage_name_, 0);
+    stage->second += timer_.seconds() - stage_begin_;
     stage_name_.clear();
   }
 

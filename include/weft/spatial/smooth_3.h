@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Smoothing of a spatial Delaunay mesh (Tournois 2009, sec. 3.2.1.5, 3.3.2, 3.3.3): in every sweep each vertex moves to
+// where a smoother wants it, projected onto its own patch or crease, but for vertices locked by excellent cells. All
+// move at once. What the thesis leaves to the next refinement is prevented here: the vertices of elements that a sweep
+// makes violate a criterion go back, and take shorter steps from then on; a sweep that raises the ODT energy is undone.
+
+#ifndef WEFT_SPATIAL_SMOOTH_3_H
+#define WEFT_SPATIAL_SMOOTH_3_H
+
+#include <weft/errors.h>
+#include <weft/internal/parallel_for.h>
+#include <weft/internal/timer.h>
+#include <weft/relocate/Relocator_3.h>
+#include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/Criteria_guard_3.h>
+#include <weft/spatial/dihedral_angles_3.h>
+#include <weft/spatial/Dynamic_sizing_3.h>
+#include <weft/spatial/smoothers_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace weft {
+
+/// Options of `smooth_3()`.
+struct Smooth_options_3
+{
+  int max_sweeps = 20;
+  double move_ratio = 0.01; ///< ends when no vertex moves farther, in parts of its size
+  double lipschitz = 1;     ///< of the dynamic sizing field: by how much sizes grow per distance
+  double locked_smallest = 45,
+         locked_largest = 95; ///< vertices whose cells have all dihedral angles between these stay
+  bool uniform = false;       ///< measure lengths as they are instead of in the metric of the sizes that the mesh has
+  bool keep_criteria = true;  ///< move back what violates a criterion afterwards; else that is left to refinement
+  double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
+  int threads = 1;             ///< threads to use where oneTBB is linked; never changes the result
+  std::function<bool()> go_on; ///< called before every sweep; false ends the run
+
+  /// \throws Option_error naming the first option out of range.
+  void check() const
+  {
+    const auto require = [](bool holds, const char* what) {
+      if (!holds) throw Option_error(what);
+    };
+    require(max_sweeps >= 0, "max_sweeps must not be negative");
+    require(move_ratio > 0, "move_ratio must be positive");
+    require(lipschitz > 0, "lipschitz must be positive");
+    require(locked_smallest >= 0 && locked_largest <= 180, "locking angles must lie in [0, 180] degrees");
+    require(time_limit >= 0, "time_limit must not be negative");
+    require(threads > 0, "threads must be positive");
+  }
+};
+
+/// What `smooth_3()` did.
+struct Smooth_report_3
+{
+  std::size_t sweeps = 0;        ///< that were kept
+  std::size_t undone_sweeps = 0; ///< that would have raised the energy
+  std::size_t moves = 0;         ///< of vertices, in sweeps that were kept
+  std::size_t locked = 0;        ///< vertices that stayed since all their cells are excellent, summed over sweeps
+  std::size_t rejected = 0;      ///< moves taken back since a criterion would have been violated
+  double energy_before = 0, energy_after = 0; ///< ODT energy, in the metric of the sizes at the time
+  Relocation_counts_3 relocations;
+  double seconds = 0;
+};
+
+/// The smoother's driver; `smooth_3()` runs it.
+template <class Restricted, class Smoother>
+class Mesh_smoother_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+  using Sizing = Dynamic_sizing_3<Restricted>;
+
+  Mesh_smoother_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Smooth_options_3& options,
+                  const Smoother& smoother)
+      : mesh_(mesh),
+        guard_(mesh, criteria),
+        options_(options),
+        smoother_(smoother),
+        sizing_(options.lipschitz),
+        steps_(mesh.vertices().size(), 1)
+  {}
+
+  Smooth_report_3 run()
+  {
+    update_sizes();
+    report_.energy_before = report_.energy_after = energy();
+    for (int sweep = 0; sweep < options_.max_sweeps && goes_on(); ++sweep) {
+      if (sweep > 0) update_sizes();
+      if (!run_sweep()) break;
+    }
+    report_.seconds = timer_.seconds();
+    return report_;
+  }
+
+private:
+  bool goes_on() { return timer_.seconds() < options_.time_limit && (!options_.go_on || options_.go_on()); }
+
+  void update_sizes()
+  {
+    if (options_.uniform)
+      sizing_.update_uniformly(mesh_);
+    else
+      sizing_.update(mesh_);
+  }
+
+  /// One sweep; whether another one is worth it.
+  bool run_sweep()
+  {
+    choose_moves();
+    if (ids_.empty()) return false;
+    const double before = energy();
+    std::vector<Point> old;
+    for (const int id : ids_) old.push_back(vertex(id)->point());
+    report_.relocations += mesh_.relocate(ids_, targets_);
+    kept_ = ids_.size();
+    if (options_.keep_criteria) take_back(old);
+    report_.energy_after = energy();
+    if (options_.uniform && Smoother::minimises_odt && report_.energy_after > before) {
+      mesh_.relocate(ids_, old);
+      report_.energy_after = before;
+      ++report_.undone_sweeps;
+      relaxation_ /= 2;
+      return relaxation_ > least_relaxation;
+    }
+    report_.moves += kept_;
+    ++report_.sweeps;
+    return kept_ > 0;
+  }
+
+  Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
+
+  // ---- where to
+
+  void choose_moves()
+  {
+    const std::vector<char> is_free = free_vertices();
+    const Smoothing_context_3<Restricted, Sizing> context(mesh_, sizing_);
+    std::vector<std::optional<Point>> wanted(is_free.size());
+    internal::parallel_for(is_free.size(), options_.threads, [&](std::size_t i) {
+      if (is_free[i] && steps_[i] > least_step) wanted[i] = target(context, mesh_.vertices()[i]);
+    });
+    ids_.clear();
+    targets_.clear();
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (!wanted[i]) continue;
+      ids_.push_back(static_cast<int>(i));
+      targets_.push_back(*wanted[i]);
+    }
+  }
+
+  /// By id: vertices that aren't feature vertices, have cells in the domain and not only excellent ones.
+  std::vector<char> free_vertices()
+  {
+    std::vector<char> is_free(mesh_.vertices().size(), false);
+    const double smallest = std::cos(options_.locked_smallest * degree),
+                 largest = std::cos(options_.locked_largest * degree);
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
+      if (c->subdomain() == 0) continue;
+      const Dihedral_cosines_3 angles = extreme_dihedral_cosines(c->vertex(0)->point(), c->vertex(1)->point(),
+                                                                 c->vertex(2)->point(), c->vertex(3)->point());
+      if (angles.of_smallest <= smallest && angles.of_largest >= largest) continue;
+      for (int i = 0; i < 4; ++i) is_free[static_cast<std::size_t>(c->vertex(i)->id())] = true;
+    }
+    for (const Vertex_handle v : mesh_.vertices()) {
+      char& f = is_free[static_cast<std::size_t>(v->id())];
+      const int dimension = v->location().dimension;
+      report_.locked += !f && dimension > 0;
+      if (dimension == 0 || (dimension < 3 && !Smoother::moves_boundary)) f = false;
+    }
+    return is_free;
+  }
+
+  /// Where a vertex goes: as far as its step allows towards where the smoother wants it, but not farther than half its
+  /// shortest edge, which keeps neighbours apart.
+  template <class Context>
+  std::optional<Point> target(const Context& context, Vertex_handle v) const
+  {
+    thread_local std::vector<Cell_handle> star;
+    star.clear();
+    mesh_.triangulation().incident_cells(v, std::back_inserter(star));
+    const std::optional<Point> wanted = smoother_(context, v, star);
+    if (!wanted) return std::nullopt;
+    const auto move = *wanted - v->point();
+    const double length = std::sqrt(CGAL::to_double(move.squared_length())), reach = 0.5 * shortest_edge(v, star);
+    const double step = relaxation_ * steps_[static_cast<std::size_t>(v->id())];
+    if (!(step * length > options_.move_ratio * sizing_(v))) return std::nullopt;
+    const Point p = on_own_place(v->point() + (std::min)(step, reach / length) * move, v->location());
+    const double moved = CGAL::to_double(CGAL::squared_distance(p, v->point()));
+    const double least = options_.move_ratio * sizing_(v);
+    if (!(moved > least * least)) return std::nullopt;
+    if (v->location().dimension == 3 && mesh_.oracle().subdomain(p) != v->location().index) return std::nullopt;
+    return p;
+  }
+
+  static double shortest_edge(Vertex_handle v, const std::vector<Cell_handle>& star)
+  {
+    double shortest = HUGE_VAL;
+    for (const Cell_handle c : star)
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i) != v)
+          shortest = (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(c->vertex(i)->point(), v->point())));
+    return std::sqrt(shortest);
+  }
+
+  Point on_own_place(const Point& p, const Vertex_location_3& at) const
+  {
+    if (at.dimension == 1) return mesh_.oracle().project_on_crease(p, at.index);
+    if (at.dimension == 2) return mesh_.oracle().project_on_patch(p, at.index).point;
+    return p;
+  }
+
+  // ---- what a sweep mustn't break
+
+  /// Moves the vertices of elements that became bad back to where they were, then those around, until all is well: at
+  /// worst when all are back.
+  void take_back(const std::vector<Point>& old)
+  {
+    std::vector<int> place(mesh_.vertices().size(), -1);
+    for (std::size_t i = 0; i < ids_.size(); ++i) place[static_cast<std::size_t>(ids_[i])] = static_cast<int>(i);
+    std::vector<char> is_back(ids_.size(), false);
+    auto bad = guard_.new_offenders();
+    for (int round = 0; !bad.empty(); ++round) {
+      std::vector<int> ids;
+      std::vector<Point> points;
+      const auto move_back = [&](int id) {
+        const int i = place[static_cast<std::size_t>(id)];
+        if (i < 0 || is_back[static_cast<std::size_t>(i)]) return false;
+        is_back[static_cast<std::size_t>(i)] = true;
+        ids.push_back(id);
+        points.push_back(old[static_cast<std::size_t>(i)]);
+        return true;
+      };
+      for (const auto& element : bad) {
+        bool helps = false;
+        for (const int id : element)
+          if (id >= 0) helps = move_back(id) || helps;
+        if (!helps || round >= patient_rounds) move_neighbours_back(element, move_back);
+      }
+      if (ids.empty())
+        for (const int id : ids_) move_back(id);
+      if (ids.empty()) break; // as it was: nothing was bad then
+      for (const int id : ids) steps_[static_cast<std::size_t>(id)] /= 2;
+      report_.rejected += ids.size();
+      mesh_.relocate(ids, points);
+      auto next = guard_.new_offenders();
+      for (const auto& element : bad)
+        if (guard_.is_offending(element)) next.push_back(element);
+      std::sort(next.begin(), next.end());
+      next.erase(std::unique(next.begin(), next.end()), next.end());
+      bad.swap(next);
+    }
+    kept_ -= static_cast<std::size_t>(std::count(is_back.begin(), is_back.end(), true));
+  }
+
+  template <class Move_back>
+  void move_neighbours_back(const std::array<int, 4>& element, const Move_back& move_back)
+  {
+    for (const int id : element) {
+      if (id < 0) continue;
+      neighbours_.clear();
+      mesh_.triangulation().finite_adjacent_vertices(vertex(id), std::back_inserter(neighbours_));
+      for (const Vertex_handle w : neighbours_)
+        if (w->id() >= 0) move_back(w->id());
+    }
+  }
+
+  /// Sum over cells of volume times the squared lengths of edges, in the metric: twenty times the ODT energy.
+  double energy() const
+  {
+    const Smoothing_context_3<Restricted, Sizing> context(mesh_, sizing_);
+    double sum = 0;
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
+      if (c->subdomain() == 0) continue;
+      double edges = 0;
+      for (int i = 0; i < 3; ++i)
+        for (int j = i + 1; j < 4; ++j) edges += context.squared_length(c->vertex(i), c->vertex(j));
+      const double volume = CGAL::to_double(
+          CGAL::volume(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point()));
+      sum +=
+          volume * edges * context.template mean_power<4>({c->vertex(0), c->vertex(1), c->vertex(2), c->vertex(3)}, 3);
+    }
+    return sum / 20;
+  }
+
+  static constexpr double degree = 3.14159265358979323846 / 180;
+  static constexpr double least_relaxation = 0.1, least_step = 0.1;
+  static constexpr int patient_rounds = 3;
+
+  Restricted& mesh_;
+  Criteria_guard_3<Restricted> guard_;
+  const Smooth_options_3& options_;
+  const Smoother& smoother_;
+  Sizing sizing_;
+  double relaxation_ = 1;     ///< part of the way that all vertices go
+  std::vector<double> steps_; ///< by id: the same for each of them
+  std::vector<int> ids_;      ///< of the vertices that a sweep moves
+  std::vector<Point> targets_;
+  std::size_t kept_ = 0; ///< moves of a sweep that weren't taken back
+  std::vector<Vertex_handle> neighbours_;
+  internal::Timer timer_;
+  Smooth_report_3 report_;
+};
+
+/// Smooths a mesh: its vertices move, those on patches and creases along them, and the triangulation stays Delaunay.
+///
+/// With `keep_criteria`, elements that violate a criterion, vertices without a topological disk and crease edges that
+/// strayed are no more at the end than at the start.
+/// \tparam Restricted a Restricted_delaunay_3.
+/// \tparam Smoother a smoother, see smoothers_3.h.
+/// \throws Option_error for options or criteria out of range.
+template <class Restricted, class Smoother = Natural_odt_3>
+Smooth_report_3 smooth_3(Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria,
+                         const Smooth_options_3& options = Smooth_options_3(), const Smoother& smoother = Smoother())
+{
+  criteria.check();
+  options.check();
+  return Mesh_smoother_3<Restricted, Smoother>(mesh, criteria, options, smoother).run();
+}
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_SMOOTH_3_H

@@ -1,0 +1,526 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Properties of spatial optimisation: where smoothers want vertices to be, what moving many vertices at once leaves
+// behind, that smoothing and coarsening undo nothing that refinement has achieved, and the whole interleaved run.
+
+#include "meshing_fixtures_3.h"
+#include "surface_fixtures.h"
+
+#include <weft/make_mesh_3.h>
+#include <weft/spatial/check_restricted_3.h>
+#include <weft/spatial/coarsen_3.h>
+#include <weft/spatial/Dynamic_sizing_3.h>
+#include <weft/spatial/quality_3.h>
+#include <weft/spatial/smooth_3.h>
+#include <weft/spatial/smoothers_3.h>
+
+#include <CGAL/Delaunay_triangulation_3.h>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <optional>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace meshing;
+using Restricted = weft::Restricted_delaunay_3<Oracle>;
+using Vector = K::Vector_3;
+using Triangulation = Restricted::Triangulation;
+using Vertex_handle = Restricted::Vertex_handle;
+using Cell_handle = Restricted::Cell_handle;
+
+double uniform(std::mt19937& random)
+{
+  return random() / 4294967295.0;
+}
+
+Vector random_vector(std::mt19937& random)
+{
+  const double x = 2 * uniform(random) - 1, y = 2 * uniform(random) - 1, z = 2 * uniform(random) - 1;
+  return Vector(x, y, z);
+}
+
+/// What smoothers need of a mesh that is but a triangulation.
+struct Bare_mesh
+{
+  using Kernel = K;
+  using Point = K::Point_3;
+  using Vertex_handle = Triangulation::Vertex_handle;
+  using Cell_handle = Triangulation::Cell_handle;
+
+  struct No_creases
+  {
+    std::vector<Restricted::Crease_edge> edges() const { return {}; }
+  };
+  No_creases creases() const { return {}; }
+};
+
+/// A vertex in the origin and others around it, at distance 1 or scattered; cells with centroids below a plane belong
+/// to the domain.
+struct Ring
+{
+  Triangulation triangulation;
+  Vertex_handle center;
+  std::vector<Cell_handle> star;
+
+  Ring(int n, bool on_sphere, double plane, unsigned seed)
+  {
+    std::mt19937 random(seed);
+    center = triangulation.insert(Point(0, 0, 0));
+    while (static_cast<int>(triangulation.number_of_vertices()) < n) {
+      const Vector v = random_vector(random);
+      const double length = std::sqrt(v.squared_length());
+      if (length > 1 || length < 0.2) continue;
+      triangulation.insert(CGAL::ORIGIN + (on_sphere ? 1 : 0.7 + 0.3 * uniform(random)) / length * v);
+    }
+    int id = 0;
+    for (const auto v : triangulation.finite_vertex_handles()) v->set_id(id++);
+    for (const auto c : triangulation.all_cell_handles()) c->set_subdomain(0);
+    for (const auto c : triangulation.finite_cell_handles()) {
+      c->set_circumcenter(weft::circumcenter_3<K>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                                                  c->vertex(3)->point()));
+      double z = 0;
+      for (int i = 0; i < 4; ++i) z += c->vertex(i)->point().z();
+      if (z / 4 < plane) c->set_subdomain(1);
+    }
+    triangulation.incident_cells(center, std::back_inserter(star));
+  }
+
+  template <class Smoother, class Sizes>
+  Point target(const Smoother& smoother, const Sizes& sizes) const
+  {
+    const Bare_mesh mesh;
+    const weft::Smoothing_context_3<Bare_mesh, Sizes> context(mesh, sizes);
+    const std::optional<Point> p = smoother(context, center, star);
+    REQUIRE(p);
+    return *p;
+  }
+};
+
+double norm(const Vector& v)
+{
+  return std::sqrt(v.squared_length());
+}
+
+/// Twenty times the ODT energy of the domain's cells, with one vertex elsewhere.
+double energy(const std::vector<Cell_handle>& star, Vertex_handle moved, const Point& to)
+{
+  double sum = 0;
+  for (const auto c : star) {
+    if (c->subdomain() == 0) continue;
+    std::array<Point, 4> p;
+    for (int i = 0; i < 4; ++i) p[i] = c->vertex(i) == moved ? to : c->vertex(i)->point();
+    double edges = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i + 1; j < 4; ++j) edges += CGAL::squared_distance(p[i], p[j]);
+    sum += CGAL::volume(p[0], p[1], p[2], p[3]) * edges;
+  }
+  return sum;
+}
+
+/// Refined meshes that have inner vertices, patches and creases.
+struct Case
+{
+  Surface surface;
+  double size, approximation;
+};
+std::vector<Case> cases()
+{
+  return {{surfaces::torus(48, 24), 0.3, 0.02}, {surfaces::cylinder(40), 0.4, 0.02}, {surfaces::l_shape(), 0.3, 0}};
+}
+
+using Cell_set = std::set<std::array<Point, 4>>;
+
+template <class Any_triangulation>
+Cell_set cells_of(const Any_triangulation& tr)
+{
+  Cell_set cells;
+  for (const auto c : tr.finite_cell_handles()) {
+    std::array<Point, 4> p;
+    for (int i = 0; i < 4; ++i) p[static_cast<std::size_t>(i)] = c->vertex(i)->point();
+    std::sort(p.begin(), p.end());
+    cells.insert(p);
+  }
+  return cells;
+}
+
+void check_delaunay(const Restricted& mesh)
+{
+  CHECK(mesh.triangulation().is_valid());
+  std::vector<Point> points;
+  for (const auto v : mesh.triangulation().finite_vertex_handles()) points.push_back(v->point());
+  const CGAL::Delaunay_triangulation_3<K> scratch(points.begin(), points.end());
+  CHECK(cells_of(mesh.triangulation()) == cells_of(scratch));
+  const auto agreement = weft::check_restricted_3(mesh);
+  INFO(agreement);
+  CHECK(agreement.ok());
+}
+
+/// Everything that refinement guarantees.
+void check_criteria(const Restricted& mesh, const Oracle& oracle, const Criteria& criteria, double approximation)
+{
+  check_delaunay(mesh);
+  check_complete(weft::tetrahedral_mesh(mesh), oracle, criteria, approximation);
+}
+
+} // namespace
+
+TEST_CASE("a vertex whose neighbours lie on a sphere around it stays, with a full ring or a partial one")
+{
+  const auto size = [](Vertex_handle) { return 0.37; };
+  for (const double plane : {2., 0.2, 0., -0.2})
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      const Ring ring(40, true, plane, seed);
+      INFO("cells below " << plane << ", seed " << seed);
+      CHECK(norm(ring.target(weft::Natural_odt_3(), size) - Point(0, 0, 0)) < 1e-9);
+    }
+}
+
+TEST_CASE("Natural ODT and ODT agree inside, and put a vertex where the ODT energy of its star is least")
+{
+  const auto size = [](Vertex_handle) { return 1.; };
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const Ring ring(30, false, 2, seed);
+    const Point p = ring.target(weft::Odt_3(), size);
+    CHECK(norm(p - ring.target(weft::Natural_odt_3(), size)) < 1e-9);
+    const double least = energy(ring.star, ring.center, p);
+    for (const Vector& d : {Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)}) {
+      const double h = 1e-4,
+                   slope = (energy(ring.star, ring.center, p + h * d) - energy(ring.star, ring.center, p - h * d)) /
+                           (2 * h);
+      CHECK(std::abs(slope) < 1e-5 * least);
+      CHECK(energy(ring.star, ring.center, p + 0.1 * d) > least);
+    }
+  }
+}
+
+TEST_CASE("a constant sizing field gives the uniform formulas back, whatever the constant")
+{
+  for (const double plane : {2., 0.1})
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      const Ring ring(30, false, plane, seed);
+      const auto one = [](Vertex_handle) { return 1.; };
+      const auto other = [](Vertex_handle) { return 123.4; };
+      CHECK(norm(ring.target(weft::Natural_odt_3(), one) - ring.target(weft::Natural_odt_3(), other)) < 1e-12);
+      CHECK(norm(ring.target(weft::Odt_3(), one) - ring.target(weft::Odt_3(), other)) < 1e-12);
+    }
+}
+
+TEST_CASE("Lloyd's position is the centroid of the Voronoi cell, as sampling finds it")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  Options options = refinement();
+  options.lattice = false;
+  const auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.3, 0), options);
+  const auto size = [](Vertex_handle) { return 1.; };
+  const weft::Smoothing_context_3<Restricted, decltype(size)> context(mesh, size);
+  std::mt19937 random(5);
+  int tested = 0;
+  for (const auto v : mesh.vertices()) {
+    if (v->location().dimension < 3 || oracle.clearance(v->point()) < 0.3) continue;
+    std::vector<Cell_handle> star;
+    mesh.triangulation().incident_cells(v, std::back_inserter(star));
+    double reach = 0;
+    for (const auto c : star) reach = (std::max)(reach, norm(c->circumcenter() - v->point()));
+    Vector sum(0, 0, 0);
+    int inside = 0;
+    while (inside < 20000) {
+      const Vector d = reach * random_vector(random);
+      if (d.squared_length() > reach * reach || mesh.triangulation().nearest_vertex(v->point() + d, star[0]) != v)
+        continue;
+      sum = sum + d;
+      ++inside;
+    }
+    const auto p = weft::Lloyd_3()(context, v, star);
+    REQUIRE(p);
+    CHECK(norm(*p - v->point() - sum / inside) < 0.02 * reach);
+    if (++tested == 5) break;
+  }
+  CHECK(tested == 5);
+}
+
+TEST_CASE("dynamic sizes are K-Lipschitz along edges and the largest that are")
+{
+  const Oracle oracle = oracle_of(surfaces::torus(48, 24));
+  const auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.3, 0.01), refinement());
+  for (const double lipschitz : {0.1, 0.5, 2.}) {
+    weft::Dynamic_sizing_3<Restricted> sizing(lipschitz), free(1e9);
+    sizing.update(mesh);
+    free.update(mesh); // as good as ungraded
+    const Mesh arrays = weft::tetrahedral_mesh(mesh);
+    std::set<std::pair<std::size_t, std::size_t>> edges;
+    for (const auto& c : arrays.cells)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i + 1; j < 4; ++j) edges.insert(std::minmax(c[i], c[j]));
+    // Brute force: relax all edges until nothing changes.
+    const std::size_t n = arrays.points.size();
+    REQUIRE(n == mesh.vertices().size());
+    std::map<Point, std::size_t> index;
+    for (std::size_t i = 0; i < n; ++i) index[arrays.points[i]] = i;
+    std::vector<double> sum(n, 0), count(n, 0), expected(n);
+    for (const auto& [a, b] : edges) {
+      const double length = std::sqrt(CGAL::squared_distance(arrays.points[a], arrays.points[b]));
+      for (const std::size_t v : {a, b}) sum[v] += length, ++count[v];
+    }
+    for (std::size_t i = 0; i < n; ++i) expected[i] = sum[i] / count[i];
+    for (const auto v : mesh.vertices()) CHECK(free(v) == Approx(expected[index[v->point()]]));
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const auto& [a, b] : edges) {
+        const double reach = lipschitz * std::sqrt(CGAL::squared_distance(arrays.points[a], arrays.points[b]));
+        for (const auto& [x, y] : {std::make_pair(a, b), std::make_pair(b, a)})
+          if (expected[x] > (expected[y] + reach) * (1 + 1e-12)) expected[x] = expected[y] + reach, changed = true;
+      }
+    }
+    for (const auto v : mesh.vertices()) CHECK(sizing(v) == Approx(expected[index[v->point()]]));
+  }
+}
+
+TEST_CASE("after many vertices have moved at once, the triangulation is that of the points from scratch")
+{
+  std::mt19937 random(3);
+  for (const Case& c : cases()) {
+    const Oracle oracle = oracle_of(c.surface);
+    auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), refinement());
+    weft::Relocation_counts_3 all;
+    for (const double part : {1., 0.3, 0.02})
+      for (const double step : {0.001, 0.01, 0.1, 0.5}) {
+        std::vector<int> ids;
+        std::vector<Point> targets;
+        for (const auto v : mesh.vertices()) {
+          if (v->location().dimension < 1 || uniform(random) > part) continue;
+          Point p = v->point() + step * c.size * random_vector(random);
+          if (v->location().dimension == 1) p = oracle.project_on_crease(p, v->location().index);
+          if (v->location().dimension == 2) p = oracle.project_on_patch(p, v->location().index).point;
+          ids.push_back(v->id());
+          targets.push_back(p);
+        }
+        const auto locations = [&mesh = mesh] {
+          std::vector<weft::Vertex_location_3> all_locations;
+          for (const auto v : mesh.vertices()) all_locations.push_back(v->location());
+          return all_locations;
+        };
+        const auto before = locations();
+        const weft::Relocation_counts_3 counts = mesh.relocate(ids, targets);
+        INFO("part " << part << ", step " << step);
+        CHECK(counts.in_place + counts.one_by_one + counts.rebuilt + counts.put_back == ids.size());
+        CHECK(before == locations());
+        std::size_t there = 0;
+        for (std::size_t i = 0; i < ids.size(); ++i)
+          there += mesh.vertices()[static_cast<std::size_t>(ids[i])]->point() == targets[i];
+        CHECK(there + counts.put_back == ids.size());
+        check_delaunay(mesh);
+        all += counts;
+      }
+    CHECK(all.in_place > 0);
+    CHECK(all.one_by_one > 0);
+    CHECK(all.rebuilt > 0);
+    CHECK(all.flips > 0);
+  }
+}
+
+TEST_CASE("vertices that are sent to the same place don't end up in one")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.3, 0), refinement());
+  for (const bool all : {false, true}) {
+    std::vector<int> ids;
+    for (const auto v : mesh.vertices())
+      if (v->location().dimension == 3 && (all || ids.size() < 2)) ids.push_back(v->id());
+    REQUIRE(ids.size() >= 2);
+    const std::size_t n = mesh.vertices().size();
+    const auto counts = mesh.relocate(ids, std::vector<Point>(ids.size(), Point(0.503, 0.501, 0.497)));
+    CHECK(counts.put_back > 0);
+    CHECK(mesh.triangulation().number_of_vertices() == n + 8);
+    check_delaunay(mesh);
+  }
+}
+
+TEST_CASE("with uniform sizes every sweep that is kept lowers the ODT energy")
+{
+  const auto smoothed = [](auto smoother, bool keep) {
+    const Oracle oracle = oracle_of(surfaces::sphere(3));
+    const Criteria criteria = criteria_of(0.25, 0);
+    Options meshing_options = refinement();
+    meshing_options.lattice = false;
+    auto [mesh, report] = weft::make_mesh_3(oracle, criteria, meshing_options);
+    weft::Smooth_options_3 options;
+    options.uniform = true;
+    options.keep_criteria = keep;
+    options.max_sweeps = 1;
+    std::size_t kept = 0;
+    for (int sweep = 0; sweep < 8; ++sweep) {
+      const weft::Smooth_report_3 r = weft::smooth_3(mesh, criteria, options, smoother);
+      CHECK(r.energy_after <= r.energy_before);
+      if (r.sweeps > 0) CHECK(r.energy_after < r.energy_before);
+      kept += r.sweeps;
+    }
+    CHECK(kept >= 3);
+    check_delaunay(mesh);
+  };
+  smoothed(weft::Odt_3(), false);
+  smoothed(weft::Natural_odt_3(), false);
+  smoothed(weft::Odt_3(), true);
+  smoothed(weft::Natural_odt_3(), true);
+}
+
+TEST_CASE("smoothing moves vertices and keeps every criterion, with any smoother")
+{
+  for (const Case& c : cases()) {
+    const Oracle oracle = oracle_of(c.surface);
+    const Criteria criteria = criteria_of(c.size, c.approximation);
+    const auto run = [&](auto smoother) {
+      auto [mesh, refined] = weft::make_mesh_3(oracle, criteria, refinement());
+      REQUIRE(refined.ok());
+      const std::size_t n = mesh.vertices().size();
+      const weft::Smooth_report_3 report = weft::smooth_3(mesh, criteria, weft::Smooth_options_3(), smoother);
+      CHECK(report.sweeps > 0);
+      CHECK(report.moves > 0);
+      CHECK(mesh.vertices().size() == n);
+      check_criteria(mesh, oracle, criteria, c.approximation);
+      const auto& moved = report.relocations;
+      CHECK(moved.in_place + moved.one_by_one + moved.rebuilt + moved.put_back >= report.moves);
+    };
+    run(weft::Natural_odt_3());
+    run(weft::Odt_3());
+    run(weft::Lloyd_3());
+  }
+}
+
+TEST_CASE("vertices among excellent cells are locked")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  const Criteria criteria = criteria_of(0.1, 0);
+  auto [mesh, refined] = weft::make_mesh_3(oracle, criteria, refinement()); // mostly lattice
+  weft::Smooth_options_3 options;
+  options.max_sweeps = 1;
+  const auto locked = weft::smooth_3(mesh, criteria, options).locked;
+  CHECK(locked > mesh.vertices().size() / 10);
+  options.locked_smallest = options.locked_largest = 70;
+  CHECK(weft::smooth_3(mesh, criteria, options).locked == 0);
+}
+
+TEST_CASE("coarsening takes vertices away and keeps every criterion")
+{
+  for (const Case& c : cases()) {
+    const Oracle oracle = oracle_of(c.surface);
+    const Criteria criteria = criteria_of(c.size, c.approximation);
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria, refinement());
+    REQUIRE(refined.ok());
+    const std::size_t n = mesh.vertices().size();
+    const weft::Coarsen_report_3 report = weft::coarsen_3(mesh, criteria);
+    CHECK(report.removed > 0);
+    CHECK(mesh.vertices().size() + report.removed == n);
+    for (std::size_t i = 0; i < mesh.vertices().size(); ++i) CHECK(mesh.vertices()[i]->id() == static_cast<int>(i));
+    check_criteria(mesh, oracle, criteria, c.approximation);
+  }
+}
+
+TEST_CASE("coarsening with an angle makes no cell below it that isn't better than those it replaces")
+{
+  const Oracle oracle = oracle_of(surfaces::torus(48, 24));
+  const Criteria criteria = criteria_of(0.3, 0.02);
+  Options options = refinement();
+  options.min_dihedral_angle = 12;
+  auto [mesh, report] = weft::make_mesh_3(oracle, criteria, options);
+  weft::Coarsen_options_3 coarsen;
+  coarsen.min_dihedral_angle = 90;
+  weft::coarsen_3(mesh, criteria, coarsen);
+  CHECK(weft::measure_quality_3(weft::tetrahedral_mesh(mesh)).smallest_dihedral.degrees >=
+        report.smallest_dihedral - 1e-9);
+}
+
+TEST_CASE("the whole run meets all criteria with fewer vertices than refinement and the angle asked for")
+{
+  for (const Case& c : cases()) {
+    const Oracle oracle = oracle_of(c.surface);
+    const Criteria criteria = criteria_of(c.size, c.approximation);
+    const auto refined = weft::make_mesh_3(oracle, criteria, refinement()).report;
+    Options options;
+    options.min_dihedral_angle = 15;
+    const auto [mesh, report] = weft::make_mesh_3(oracle, criteria, options);
+    INFO(report);
+    CHECK(report.ok());
+    CHECK(report.manifold);
+    CHECK(report.vertices < refined.vertices);
+    CHECK(report.refined_smallest_dihedral == Approx(refined.smallest_dihedral).margin(1e-6));
+    CHECK(report.smallest_dihedral >= report.smoothed_smallest_dihedral);
+    CHECK(report.smallest_dihedral >= 15);
+    CHECK(report.coarsened > 0);
+    CHECK(report.smoothing_sweeps > 0);
+    check_consistent(mesh, report);
+    check_criteria(mesh, oracle, criteria, c.approximation);
+  }
+}
+
+TEST_CASE("the whole run is the same to the last bit, also for several threads")
+{
+  for (const Case& c : cases()) {
+    const Oracle oracle = oracle_of(c.surface);
+    const auto run = [&](int threads) {
+      Options options;
+      options.threads = threads;
+      return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), options).mesh);
+    };
+    const Mesh once = run(1);
+    for (const int threads : {1, 2, 4}) CHECK(same(once, run(threads)));
+  }
+}
+
+TEST_CASE("a run cancelled at any call of the visitor leaves a valid mesh and says so")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(24));
+  const Criteria criteria = criteria_of(0.6, 0.05);
+  int total = 0;
+  Options options;
+  options.visitor = [&](const weft::Progress&) { return ++total > 0; };
+  weft::make_mesh_3(oracle, criteria, options);
+  CHECK(total > 20);
+  for (int last = 1; last < total; last += 1 + total / 60) {
+    int calls = 0;
+    options.visitor = [&](const weft::Progress&) { return ++calls < last; };
+    const auto [mesh, report] = weft::make_mesh_3(oracle, criteria, options);
+    INFO("cancelled at call " << last);
+    CHECK(calls == last);
+    CHECK(report.stop_reason == weft::Stop_reason::cancelled);
+    check_consistent(mesh, report);
+  }
+}
+
+TEST_CASE("options of smoothing and coarsening out of range are refused")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  const Criteria criteria = criteria_of(0.5, 0);
+  auto [mesh, report] = weft::make_mesh_3(oracle, criteria, refinement());
+  const auto smoothing_refused = [&, &mesh = mesh](auto change) {
+    weft::Smooth_options_3 options;
+    change(options);
+    CHECK_THROWS_AS(weft::smooth_3(mesh, criteria, options), weft::Option_error);
+  };
+  smoothing_refused([](auto& o) { o.max_sweeps = -1; });
+  smoothing_refused([](auto& o) { o.move_ratio = 0; });
+  smoothing_refused([](auto& o) { o.lipschitz = not_a_number; });
+  smoothing_refused([](auto& o) { o.locked_smallest = -1; });
+  smoothing_refused([](auto& o) { o.time_limit = not_a_number; });
+  smoothing_refused([](auto& o) { o.threads = 0; });
+  const auto coarsening_refused = [&, &mesh = mesh](auto change) {
+    weft::Coarsen_options_3 options;
+    change(options);
+    CHECK_THROWS_AS(weft::coarsen_3(mesh, criteria, options), weft::Option_error);
+  };
+  coarsening_refused([](auto& o) { o.min_dihedral_angle = 91; });
+  coarsening_refused([](auto& o) { o.most_passes = -1; });
+  coarsening_refused([](auto& o) { o.least_gain = not_a_number; });
+  coarsening_refused([](auto& o) { o.time_limit = -1; });
+}
