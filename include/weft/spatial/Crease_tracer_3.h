@@ -82,10 +82,22 @@ public:
   void update(const Touched& touched)
   {
     loaded_ = Vertex_handle();
-    bool changed = false;
+    bool changed = numbers_are_stale_;
     for (Crease& crease : creases_) changed |= update(crease, touched);
     if (changed) collect_edges();
   }
+
+  /// To be called before a vertex is removed; the stretches in its cell are followed again at the next `update()`,
+  /// which has to take all its neighbours as touched.
+  void forget(Vertex_handle v)
+  {
+    for (Crease& crease : creases_)
+      for (Visit& visit : crease.visits)
+        if (visit.vertex == v) visit.vertex = Vertex_handle();
+  }
+
+  /// To be called when a vertex has got another number: the next `update()` looks all edges up anew.
+  void renumber() { numbers_are_stale_ = true; }
 
   /// Follows everything anew.
   void trace_all()
@@ -130,7 +142,8 @@ private:
   template <class Touched>
   bool update(Crease& crease, const Touched& touched) const
   {
-    const auto is_touched = [&](const Visit& v) { return touched(v.vertex); };
+    // The first stretch of a run of touched ones begins where it did: its vertex is no neighbour of one that is gone.
+    const auto is_touched = [&](const Visit& v) { return v.vertex == Vertex_handle() || touched(v.vertex); };
     if (crease.visits.empty() || is_touched(crease.visits.front())) {
       trace(crease);
       return true;
@@ -212,6 +225,7 @@ private:
   {
     edges_.clear();
     index_.clear();
+    numbers_are_stale_ = false;
     for (std::size_t c = 0; c < creases_.size(); ++c) {
       const auto& visits = creases_[c].visits;
       const std::size_t first = edges_.size();
@@ -255,6 +269,7 @@ private:
   mutable std::vector<Vertex_handle> neighbours_;
   mutable Vertex_handle loaded_; ///< whose neighbours those are
   mutable double best_speed_ = 0;
+  bool numbers_are_stale_ = false; ///< whether ids of vertices in `index_` have changed
 };
 
 } // namespace weft

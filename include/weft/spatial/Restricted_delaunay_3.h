@@ -131,9 +131,9 @@ public:
     return v;
   }
 
-  /// Takes a vertex away, to be put back elsewhere with `put_back()` before anything else is done. Until then the cells
-  /// that fill its place aren't classified. Not for vertices on creases, nor for feature vertices.
-  /// \returns those cells.
+  /// Takes a vertex away, to be put back elsewhere with `put_back()` or left out with `leave_out()` before anything
+  /// else is done. Until then the cells that fill its place aren't classified. Not for feature vertices. \returns those
+  /// cells.
   std::vector<Cell_handle> take_away(Vertex_handle v)
   {
     std::vector<Cell_handle> star;
@@ -144,6 +144,7 @@ public:
         touch(c->vertex(i));
       }
     vertices_[static_cast<std::size_t>(v->id())] = Vertex_handle();
+    if (!creases_are_stale_) tracer_.forget(v);
     std::vector<Cell_handle> filling;
     tr_->remove_and_give_new_cells(v, std::back_inserter(filling));
     return filling;
@@ -153,6 +154,23 @@ public:
   /// \param filling as returned by `take_away()`.
   void settle(const std::vector<Cell_handle>& filling)
   {
+    new_cells_ = filling;
+    update();
+  }
+
+  /// Leaves a vertex out that was taken away and classifies what fills its place. The last vertex takes its number.
+  /// \param filling as returned by `take_away()`.
+  void leave_out(int id, const std::vector<Cell_handle>& filling)
+  {
+    const auto k = static_cast<std::size_t>(id);
+    if (k + 1 < vertices_.size()) {
+      vertices_[k] = vertices_.back();
+      vertices_[k]->set_id(id);
+      touched_[k] = touched_.back();
+      tracer_.renumber();
+    }
+    vertices_.pop_back();
+    touched_.pop_back();
     new_cells_ = filling;
     update();
   }
@@ -170,10 +188,8 @@ public:
   /// Removes the vertex that was inserted last and classifies what fills its place.
   void remove_last()
   {
-    new_cells_ = take_away(vertices_.back());
-    vertices_.pop_back();
-    touched_.pop_back();
-    update();
+    const std::vector<Cell_handle> filling = take_away(vertices_.back());
+    leave_out(static_cast<int>(vertices_.size()) - 1, filling);
   }
 
   /// Takes a vertex away that was just put back: what its place was filled with before is part of the filling again.

@@ -172,9 +172,9 @@ private:
                  largest = std::cos(options_.locked_largest * degree);
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
       if (c->subdomain() == 0) continue;
-      const Dihedral_cosines_3 angles = extreme_dihedral_cosines(c->vertex(0)->point(), c->vertex(1)->point(),
-                                                                 c->vertex(2)->point(), c->vertex(3)->point());
-      if (angles.of_smallest <= smallest && angles.of_largest >= largest) continue;
+      const Dihedral_cosines_3 angles = cosines_of_extreme_dihedrals(c->vertex(0)->point(), c->vertex(1)->point(),
+                                                                     c->vertex(2)->point(), c->vertex(3)->point());
+      if (angles.smallest <= smallest && angles.largest >= largest) continue;
       for (int i = 0; i < 4; ++i) is_free[static_cast<std::size_t>(c->vertex(i)->id())] = true;
     }
     for (const Vertex_handle v : mesh_.vertices()) {

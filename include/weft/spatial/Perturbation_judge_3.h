@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a perturbed vertex would do to the mesh: the angles of the cells that it would make, judged by the conflict zone
+// of a place before anything is inserted, and whether the boundary is still a surface and every criterion met after it
+// was (Tournois 2009, sec. 3.2.2, Alg. 7).
+
+#ifndef WEFT_SPATIAL_PERTURBATION_JUDGE_3_H
+#define WEFT_SPATIAL_PERTURBATION_JUDGE_3_H
+
+#include <weft/spatial/circumcenter_3.h>
+#include <weft/spatial/Conflict_zone_3.h>
+#include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/dihedral_angles_3.h>
+#include <weft/spatial/measure_badness_3.h>
+#include <weft/spatial/Perturb_options_3.h>
+#include <weft/spatial/topological_disk_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace weft {
+
+/// How much of a sliver a cell is: the cosine of its smallest dihedral angle, or what its largest one stands for if
+/// that is more. 152 degrees stand for 24, 140 for 32, 125 for 42.
+inline double sliver_measure(const Dihedral_cosines_3& cosines)
+{
+  return (std::max)(cosines.smallest, 0.428 - 0.55 * cosines.largest);
+}
+
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Perturbation_judge_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+  using Zone = typename Restricted::Zone;
+
+  static constexpr double no_good = 3; ///< more than any sliver measure
+
+  Perturbation_judge_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
+      : mesh_(&mesh), measure_(mesh, criteria, 1)
+  {}
+
+  static Dihedral_cosines_3 cosines(Cell_handle c)
+  {
+    return cosines_of_extreme_dihedrals(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                                        c->vertex(3)->point());
+  }
+  static double measure(Cell_handle c) { return sliver_measure(cosines(c)); }
+
+  /// No move may make an angle smaller than the one with this cosine.
+  void set_floor(double cosine) { floor_ = cosine; }
+
+  /// \param filling the cells that fill the place of a vertex that was taken away; none for an insertion.
+  void set_filling(const std::vector<Cell_handle>& filling)
+  {
+    filling_.clear();
+    for (const Cell_handle c : filling) {
+      Filler f{c, -1, -1, false, true};
+      if (!Restricted::is_at_box(c)) {
+        c->set_circumcenter(circumcenter_3<Kernel>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                                                   c->vertex(3)->point()));
+        const Dihedral_cosines_3 x = cosines(c);
+        f = {c, sliver_measure(x), x.smallest, false, false};
+      }
+      filling_.push_back(f);
+    }
+  }
+
+  /// Finds the zone of a point; `near` is where to look from.
+  bool find_zone(const Point& p, Cell_handle near)
+  {
+    const auto& tr = mesh_->triangulation();
+    return find_conflict_zone(tr, p, tr.locate(p, near), no_batch, zone_) == Zone_result::found;
+  }
+  const Zone& zone() const { return zone_; }
+
+  /// The worst measure of the cells that a vertex at the point of `zone()` would make, filling that stays included;
+  /// `no_good` if it isn't less than `limit` or, where that is more, the worst of the cells unmade.
+  double judge(double limit)
+  {
+    ++stamp_;
+    for (const Cell_handle c : zone_.cells) c->set_id(-stamp_);
+    bool limit_is_final = false;
+    double worst = -1;
+    const auto exceeds = [&](const Dihedral_cosines_3& x) {
+      worst = sliver_measure(x);
+      if (x.smallest > floor_) return true;
+      if (worst < limit) return false;
+      if (!limit_is_final) limit = (std::max)(limit, worst_unmade()); // seldom needed: candidates mostly fail
+      limit_is_final = true;
+      return worst >= limit;
+    };
+    for (Filler& f : filling_)
+      if (f.cell->id() != -stamp_ && f.measure > worst && is_inside(f) && exceeds(cosines(f.cell))) return no_good;
+    for (const auto& facet : zone_.hull) {
+      std::array<Point, 4> p;
+      if (!corners(facet, p)) continue;
+      const Dihedral_cosines_3 x = cosines_of_extreme_dihedrals(p[0], p[1], p[2], p[3]);
+      if (sliver_measure(x) <= worst || !is_inside(circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]))) continue;
+      if (exceeds(x)) return no_good;
+    }
+    return worst;
+  }
+
+  /// The same for leaving the vertex out that was taken away.
+  double judge_filling(double limit)
+  {
+    double worst = -1;
+    for (Filler& f : filling_) {
+      if (f.measure <= worst || !is_inside(f)) continue;
+      worst = f.measure;
+      if (worst >= limit || f.smallest > floor_) return no_good;
+    }
+    return worst;
+  }
+
+  /// Whether the cells that a vertex at the point of `zone()` would make have the shape that is asked for.
+  bool would_fit(double shape, Perturb_report_3& report) const
+  {
+    if (!(shape > 0)) return true;
+    for (const auto& facet : zone_.hull) {
+      std::array<Point, 4> p;
+      if (!corners(facet, p)) continue;
+      const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
+      double shortest = CGAL::to_double(CGAL::squared_distance(p[0], p[1]));
+      for (const auto& [i, j] : {std::pair(0, 2), std::pair(0, 3), std::pair(1, 2), std::pair(1, 3), std::pair(2, 3)})
+        shortest = (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(p[i], p[j])));
+      if (CGAL::to_double(CGAL::squared_distance(o, p[0])) <= shape * shape * shortest || !is_inside(o)) continue;
+      ++report.refused_cells;
+      return false;
+    }
+    return true;
+  }
+
+  /// Whether the boundary is still a surface around what changed last, and every element made satisfies the criteria.
+  bool is_acceptable(Perturb_report_3& report)
+  {
+    for (const Cell_handle c : mesh_->new_cells())
+      if (c->subdomain() != 0 && measure_.cell(c).is_bad()) return ++report.refused_cells, false;
+    for (const int record : mesh_->new_facets())
+      if (measure_.facet(mesh_->facets()[static_cast<std::size_t>(record)]).is_bad())
+        return ++report.refused_facets, false;
+    collect_changed();
+    for (const int v : changed_)
+      if (!has_topological_disk(*mesh_, mesh_->vertices()[static_cast<std::size_t>(v)]))
+        return ++report.refused_disks, false;
+    const auto changed = [this](Vertex_handle v) {
+      return std::binary_search(changed_.begin(), changed_.end(), v->id());
+    };
+    for (const auto& e : mesh_->creases().edges())
+      if ((changed(e.source) || changed(e.target)) && measure_.crease_edge(e).is_bad())
+        return ++report.refused_creases, false;
+    return true;
+  }
+
+private:
+  static constexpr int no_batch = -2;
+
+  /// A cell that fills the place of a vertex taken away.
+  struct Filler
+  {
+    Cell_handle cell;
+    double measure, smallest;
+    bool inside, labelled; ///< the oracle is asked when it matters
+  };
+
+  bool is_inside(const Point& p) const { return mesh_->oracle().subdomain(p) != 0; }
+
+  bool is_inside(Filler& f) const
+  {
+    if (!f.labelled) f.inside = is_inside(f.cell->circumcenter());
+    f.labelled = true;
+    return f.inside;
+  }
+
+  double worst_unmade() const
+  {
+    double worst = -1;
+    for (const Cell_handle c : zone_.cells)
+      if (c->is_classified() && c->subdomain() != 0) worst = (std::max)(worst, measure(c));
+    return worst;
+  }
+
+  /// The cell that the point of the zone would make with a facet of its hull; false for one at the box.
+  bool corners(const typename Restricted::Facet& facet, std::array<Point, 4>& p) const
+  {
+    const auto& [c, i] = facet;
+    for (int k = 0; k < 4; ++k) {
+      if (k != i && c->vertex(k)->location().dimension < 0) return false;
+      p[static_cast<std::size_t>(k)] = k == i ? zone_.point : c->vertex(k)->point();
+    }
+    std::swap(p[static_cast<std::size_t>((i + 1) % 4)], p[static_cast<std::size_t>((i + 2) % 4)]); // on the other side
+    return true;
+  }
+
+  /// Vertices on the boundary whose stars changed last.
+  void collect_changed()
+  {
+    changed_.clear();
+    for (const Cell_handle c : mesh_->new_cells())
+      for (int i = 0; i < 4; ++i) {
+        const Vertex_handle v = c->vertex(i);
+        if (v->location().dimension >= 0 && v->location().dimension <= 2) changed_.push_back(v->id());
+      }
+    std::sort(changed_.begin(), changed_.end());
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  }
+
+  const Restricted* mesh_;
+  Badness_measure_3<Restricted> measure_;
+  std::vector<Filler> filling_;
+  std::vector<int> changed_; ///< ids
+  Zone zone_;
+  double floor_ = 1;
+  int stamp_ = 1;
+};
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_PERTURBATION_JUDGE_3_H

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One step of sliver removal (Tournois 2009, sec. 3.2.2): a vertex is moved, inserted or removed, and the change kept
+// if the worst of the cells made is better than the worst of those unmade and the boundary and all criteria hold.
+//
+// Other than in Alg. 7, the vertex is taken away once, and places are judged by their conflict zones before anything is
+// inserted. Inserting and removing vertices is what sec. 4.1 calls pliant.
+
+#ifndef WEFT_SPATIAL_VERTEX_PERTURBER_3_H
+#define WEFT_SPATIAL_VERTEX_PERTURBER_3_H
+
+#include <weft/spatial/Perturb_options_3.h>
+#include <weft/spatial/Perturbation_judge_3.h>
+#include <weft/spatial/sliver_gradients_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace weft {
+
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Vertex_perturber_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Vector = typename Kernel::Vector_3;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+  using Judge = Perturbation_judge_3<Restricted>;
+
+  /// When a vertex is to be moved.
+  enum class Purpose
+  {
+    mend,   ///< a cell at it is below the bound
+    better, ///< always, if that betters its star
+    shake   ///< always, if nothing it makes is below the bound: makes room for others
+  };
+
+  Vertex_perturber_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Perturb_options_3& options,
+                     Perturb_report_3& report)
+      : mesh_(mesh),
+        criteria_(criteria),
+        options_(options),
+        report_(report),
+        judge_(mesh, criteria),
+        random_(options.seed)
+  {}
+
+  Judge& judge() { return judge_; }
+
+  /// Cells that measure more are slivers.
+  void set_bound(double bound) { bound_ = bound; }
+
+  /// Moves a vertex; whether it was moved. Feature vertices stay.
+  bool move(int id, Purpose purpose, int trials)
+  {
+    const Vertex_handle v = vertex(id);
+    location_ = v->location();
+    if (location_.dimension < 1) return false;
+    load_star(v);
+    if (purpose == Purpose::mend && limit_ <= bound_) return false; // mended meanwhile
+    if (purpose == Purpose::shake) limit_ = (std::max)(limit_, bound_);
+    most_ = Judge::no_good;
+    ++report_.tried_vertices;
+    const Point origin = v->point();
+    take(mesh_.take_away(v));
+    find_places(origin, trials, purpose == Purpose::shake);
+    for (const Place& place : places_) {
+      if (!judge_.find_zone(place.point, near_) || !judge_.would_fit(criteria_.cell_shape, report_)) continue;
+      mesh_.put_back(judge_.zone(), location_, id, filling_);
+      if (judge_.is_acceptable(report_)) {
+        ++(report_.*place.direction);
+        return true;
+      }
+      take(mesh_.take_away_again(vertex(id)));
+    }
+    judge_.find_zone(origin, near_);
+    mesh_.put_back(judge_.zone(), location_, id, filling_);
+    return false;
+  }
+
+  /// Inserts a vertex near a cell, inside, on a patch or on a crease; whether it did.
+  /// \param mends whether nothing that it makes may be below the bound.
+  bool insert_near(Cell_handle c, int trials, bool mends)
+  {
+    const Point center =
+        CGAL::centroid(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
+    filling_.clear();
+    judge_.set_filling(filling_);
+    near_ = c;
+    limit_ = Judge::measure(c);
+    most_ = mends ? bound_ : limit_;
+    reach_ = std::sqrt(shortest_squared_edge(c));
+    const std::vector<Vertex_location_3> locations = locations_around(c);
+    for (const Vertex_location_3& location : locations) {
+      location_ = location;
+      places_.clear();
+      search(center, 1, trials / static_cast<int>(locations.size()));
+      keep_best_places();
+      for (const Place& place : places_) {
+        if (!judge_.find_zone(place.point, near_) || !judge_.would_fit(criteria_.cell_shape, report_)) continue;
+        mesh_.insert(judge_.zone(), location_);
+        mesh_.update();
+        if (judge_.is_acceptable(report_)) {
+          ++report_.insertions;
+          return true;
+        }
+        mesh_.remove_last();
+        near_ = mesh_.new_cells().front(); // c died with the insertion
+      }
+    }
+    return false;
+  }
+
+  /// Removes a vertex; whether it did. Feature vertices stay. Ids change: the last vertex takes its number, and if it
+  /// was put back it has got the last.
+  bool remove(int id)
+  {
+    const Vertex_handle v = vertex(id);
+    location_ = v->location();
+    if (location_.dimension < 1) return false;
+    load_star(v);
+    const Point origin = v->point();
+    take(mesh_.take_away(v));
+    if (judge_.judge_filling(limit_) == Judge::no_good) {
+      judge_.find_zone(origin, near_);
+      mesh_.put_back(judge_.zone(), location_, id, filling_);
+      return false;
+    }
+    mesh_.leave_out(id, filling_);
+    if (judge_.is_acceptable(report_)) {
+      ++report_.removals;
+      return true;
+    }
+    judge_.find_zone(origin, mesh_.new_cells().front());
+    mesh_.insert(judge_.zone(), location_);
+    mesh_.update();
+    return false;
+  }
+
+private:
+  struct Place
+  {
+    Point point;
+    double measure; ///< of the worst cell made
+    std::size_t Perturb_report_3::*direction;
+  };
+
+  Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
+
+  void take(std::vector<Cell_handle> filling)
+  {
+    filling_ = std::move(filling);
+    judge_.set_filling(filling_);
+    near_ = filling_.front();
+  }
+
+  /// What the star of a vertex is like: its worst cell, the directions that its slivers suggest.
+  void load_star(Vertex_handle v)
+  {
+    cells_.clear();
+    mesh_.triangulation().incident_cells(v, std::back_inserter(cells_));
+    limit_ = -1;
+    by_radius_ = by_volume_ = Vector(0, 0, 0);
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Cell_handle c : cells_) {
+      if (c->subdomain() == 0) continue;
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i) != v)
+          shortest = (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(v->point(), c->vertex(i)->point())));
+      const double x = Judge::measure(c);
+      limit_ = (std::max)(limit_, x);
+      if (x > bound_) add_gradients(c, c->index(v));
+    }
+    reach_ = std::sqrt(shortest);
+  }
+
+  void add_gradients(Cell_handle c, int i)
+  {
+    const Point &v = c->vertex(i)->point(), &a = c->vertex((i + 1) % 4)->point(), &b = c->vertex((i + 2) % 4)->point(),
+                &d = c->vertex((i + 3) % 4)->point();
+    by_radius_ = by_radius_ + gradient_of_squared_radius(v, a, b, d, c->circumcenter());
+    by_volume_ = by_volume_ - gradient_of_volume(v, a, b, d);
+  }
+
+  static double shortest_squared_edge(Cell_handle c)
+  {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        shortest =
+            (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(c->vertex(i)->point(), c->vertex(j)->point())));
+    return shortest;
+  }
+
+  /// Where a vertex near a cell may lie: inside, on the patches and on the creases of its vertices.
+  static std::vector<Vertex_location_3> locations_around(Cell_handle c)
+  {
+    std::vector<Vertex_location_3> all = {{3, c->subdomain()}};
+    for (int i = 0; i < 4; ++i) {
+      const Vertex_location_3& at = c->vertex(i)->location();
+      if (at.dimension != 1 && at.dimension != 2) continue;
+      if (std::find(all.begin(), all.end(), at) == all.end()) all.push_back(at);
+    }
+    return all;
+  }
+
+  // ---- places
+
+  /// As in Alg. 7 the gradients have their turn before chance.
+  void find_places(const Point& origin, int trials, bool at_random)
+  {
+    places_.clear();
+    if (!at_random && options_.directions == Perturb_directions_3::combined)
+      for (const double step : {0.05, 0.1, 0.2, 0.3}) {
+        try_along(origin, by_radius_, step, &Perturb_report_3::by_radius);
+        try_along(origin, by_volume_, step, &Perturb_report_3::by_volume);
+      }
+    if (std::none_of(places_.begin(), places_.end(), [this](const Place& p) { return p.measure <= bound_; }))
+      search(origin, options_.random_reach, trials);
+    keep_best_places();
+  }
+
+  void try_along(const Point& origin, const Vector& direction, double step, std::size_t Perturb_report_3::*kind)
+  {
+    const double length = std::sqrt(CGAL::to_double(direction.squared_length()));
+    if (!(length > 0) || !std::isfinite(length)) return;
+    try_at(origin + (step * reach_ / length) * direction, kind);
+  }
+
+  /// Random places around a center, every other one closer and closer around the best so far, until one is good.
+  /// \param reach in parts of the shortest edge.
+  void search(const Point& center, double reach, int trials)
+  {
+    double best = limit_, radius = reach;
+    Point at = center;
+    for (int k = 0; k < trials; ++k) {
+      const bool near_best = k % 2 == 1 && best < limit_;
+      const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
+      const Vector v(x, y, z);
+      const double length = std::sqrt(CGAL::to_double(v.squared_length()));
+      if (!(length > 0)) continue;
+      const double step = (near_best ? radius : reach) * (0.5 + 0.5 * random()) * reach_ / length;
+      const double measure = try_at((near_best ? at : center) + step * v, &Perturb_report_3::by_chance);
+      if (near_best) radius *= measure < best ? 1.5 : 0.85;
+      if (measure >= best) continue;
+      if (!near_best) radius = 0.3 * reach;
+      best = measure;
+      at = places_.back().point;
+      if (best <= bound_) break;
+    }
+  }
+
+  /// In [-1, 1].
+  double random() { return 2 * (random_() / 4294967295.0) - 1; }
+
+  /// Judges a place, projected to where the vertex may lie; remembers it if it is good enough.
+  double try_at(Point p, std::size_t Perturb_report_3::*direction)
+  {
+    ++report_.trials;
+    if (location_.dimension == 1) p = mesh_.oracle().project_on_crease(p, location_.index);
+    if (location_.dimension == 2) p = mesh_.oracle().project_on_patch(p, location_.index).point;
+    if (location_.dimension == 3 && mesh_.oracle().subdomain(p) == 0) return Judge::no_good;
+    if (!judge_.find_zone(p, near_)) return Judge::no_good;
+    const double measure = judge_.judge(limit_);
+    if (measure > most_) return Judge::no_good;
+    if (measure < Judge::no_good) places_.push_back({p, measure, direction});
+    return measure;
+  }
+
+  void keep_best_places()
+  {
+    std::stable_sort(places_.begin(), places_.end(),
+                     [](const Place& a, const Place& b) { return a.measure < b.measure; });
+    if (places_.size() > most_places) places_.resize(most_places);
+  }
+
+  static constexpr std::size_t most_places = 3; ///< of the best, how many are tried for good
+
+  Restricted& mesh_;
+  const Criteria_3<Kernel>& criteria_;
+  const Perturb_options_3& options_;
+  Perturb_report_3& report_;
+  Judge judge_;
+  std::mt19937 random_;
+  double bound_ = 1;
+
+  Vertex_location_3 location_;     ///< of the vertex that is moved or inserted
+  double limit_ = -1, reach_ = 0;  ///< what it has to better; the shortest edge around
+  double most_ = 0;                ///< what it must not make, whatever it unmakes
+  Vector by_radius_, by_volume_;   ///< directions
+  Cell_handle near_;               ///< a cell near it
+  std::vector<Cell_handle> cells_; ///< its star
+  std::vector<Cell_handle> filling_;
+  std::vector<Place> places_;
+};
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_VERTEX_PERTURBER_3_H
