@@ -93,7 +93,7 @@ private:
     ++report_.passes;
     std::vector<std::pair<double, int>> order;
     for (const Vertex_handle v : mesh_.vertices())
-      if (v != Vertex_handle() && v->location().dimension >= 2) order.emplace_back(shortest_edge(v), v->id());
+      if (v != Vertex_handle() && v->location().dimension >= 1) order.emplace_back(shortest_edge(v), v->id());
     std::sort(order.begin(), order.end());
     for (std::size_t i = 0; i < order.size(); ++i) {
       goes_on_ = timer_.seconds() < options_.time_limit && (i % 64 != 0 || !options_.go_on || options_.go_on());
@@ -166,7 +166,7 @@ private:
   Coarsen_report_3 report_;
 };
 
-/// Takes away vertices inside and on patches as long as elements that satisfy `criteria` are replaced by elements that
+/// Takes away vertices inside, on patches and on creases as long as elements that satisfy `criteria` are replaced by elements that
 /// do and facets don't come to lie farther from the surface than the farthest did before.
 ///
 /// The triangulation stays Delaunay; ids of vertices are given anew. About 0.1 ms a vertex and pass.
