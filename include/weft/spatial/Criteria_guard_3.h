@@ -7,6 +7,7 @@
 #ifndef WEFT_SPATIAL_CRITERIA_GUARD_3_H
 #define WEFT_SPATIAL_CRITERIA_GUARD_3_H
 
+#include <weft/spatial/circumcenter_3.h>
 #include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/topological_disk_3.h>
@@ -53,6 +54,21 @@ public:
     for (const auto& e : mesh.creases().edges())
       crease_deviation_bound_ = (std::max)(crease_deviation_bound_, squared_deviation(e));
     for (const Element& e : offenders(all)) tolerated_.insert(e);
+  }
+
+  /// Before anything is classified: whether cells would be good if they belong to the domain, which their circumcenters
+  /// decide. Sets those.
+  bool may_accept(const std::vector<Cell_handle>& cells) const
+  {
+    for (const Cell_handle c : cells) {
+      if (Restricted::is_at_box(c)) continue;
+      c->set_circumcenter(circumcenter_3<Kernel>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                                                 c->vertex(3)->point()));
+      if (measure_.cell(c).is_bad() && mesh_.oracle().subdomain(c->circumcenter()) != 0 &&
+          tolerated_.count(key(c)) == 0)
+        return false;
+    }
+    return true;
   }
 
   /// Whether what the last change has made is good: the same as `new_offenders().empty()` but sooner at its end, and
