@@ -22,10 +22,20 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <set>
+#include <map>
 #include <vector>
 
 namespace weft {
+
+/// What refuses a change.
+enum class Refusal_3
+{
+  none,
+  cell,
+  facet,
+  crease,
+  disk
+};
 
 /// \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
@@ -35,25 +45,27 @@ public:
   using Kernel = typename Restricted::Kernel;
   using Vertex_handle = typename Restricted::Vertex_handle;
   using Cell_handle = typename Restricted::Cell_handle;
+  using Facet = typename Restricted::Restricted_facet;
+  using Crease_edge = typename Restricted::Crease_edge;
 
-  /// An element by the sorted ids of its vertices, filled up with -1.
+  /// An element by the ids of its vertices in falling order, filled up with -1.
   using Element = std::array<int, 4>;
 
-  /// Elements that are bad now are tolerated from now on. Linear in the size of the mesh.
+  /// Elements that are bad now are tolerated from now on, as long as they don't get worse. Linear in the size of the
+  /// mesh.
   Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
       : mesh_(mesh), measure_(mesh, criteria, 1)
   {
-    const Part all = everything();
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
     const double rounding = 1e-6 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
     deviation_bound_ = crease_deviation_bound_ = rounding * rounding; // on flat patches all that is seen
+    const Part all = everything();
     for (const int record : all.facets)
-      deviation_bound_ =
-          (std::max)(deviation_bound_, squared_deviation(mesh.facets()[static_cast<std::size_t>(record)]));
+      deviation_bound_ = (std::max)(deviation_bound_, squared_deviation(facet(record)));
     deviation_bound_ *= closer * closer;
-    for (const auto& e : mesh.creases().edges())
+    for (const Crease_edge& e : mesh.creases().edges())
       crease_deviation_bound_ = (std::max)(crease_deviation_bound_, squared_deviation(e));
-    for (const Element& e : offenders(all)) tolerated_.insert(e);
+    visit_bad(all, [this](const Element& e, const Grade& grade) { tolerated_[e] = grade; });
   }
 
   /// Before anything is classified: whether cells would be good if they belong to the domain, which their circumcenters
@@ -64,63 +76,82 @@ public:
       if (Restricted::is_at_box(c)) continue;
       c->set_circumcenter(circumcenter_3<Kernel>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
                                                  c->vertex(3)->point()));
-      if (measure_.cell(c).is_bad() && mesh_.oracle().subdomain(c->circumcenter()) != 0 &&
-          tolerated_.count(key(c)) == 0)
-        return false;
+      if (offends(key(c), grade(c)) && mesh_.oracle().subdomain(c->circumcenter()) != 0) return false;
     }
     return true;
   }
 
-  /// Whether what the last change has made is good: the same as `new_offenders().empty()` but sooner at its end, and
-  /// with crease edges looked up only where the change was.
-  bool accepts_change() const
+  /// The first fault found in what the last change has made: none just when `new_offenders()` is empty, but sooner at
+  /// its end, and with crease edges looked up only where the change was.
+  Refusal_3 refusal() const
   {
-    for (const int record : mesh_.new_facets()) {
-      const auto& f = mesh_.facets()[static_cast<std::size_t>(record)];
-      if (is_bad(f) && tolerated_.count(key(f)) == 0) return false;
-    }
     for (const Cell_handle c : mesh_.new_cells())
-      if (c->subdomain() != 0 && measure_.cell(c).is_bad() && tolerated_.count(key(c)) == 0) return false;
+      if (c->subdomain() != 0 && offends(key(c), grade(c))) return Refusal_3::cell;
+    for (const int record : mesh_.new_facets())
+      if (offends(key(facet(record)), grade(facet(record)))) return Refusal_3::facet;
     for (const Cell_handle c : mesh_.new_cells())
-      if (has_bad_crease_edge(c)) return false;
+      if (has_bad_crease_edge(c)) return Refusal_3::crease;
     for (const int id : boundary_vertices(mesh_.new_cells()))
-      if (tolerated_.count({id, -1, -1, -1}) == 0 &&
-          !has_topological_disk(mesh_, mesh_.vertices()[static_cast<std::size_t>(id)]))
-        return false;
-    return true;
+      if (offends({id, -1, -1, -1}, grade(vertex(id)))) return Refusal_3::disk;
+    return Refusal_3::none;
   }
+  bool accepts_change() const { return refusal() == Refusal_3::none; }
 
   /// The bad elements among those that the last change of the mesh has made, and all bad crease edges.
-  std::vector<Element> new_offenders() const { return offenders({mesh_.new_cells(), mesh_.new_facets()}); }
+  std::vector<Element> new_offenders() const
+  {
+    std::vector<Element> bad;
+    visit_bad({mesh_.new_cells(), mesh_.new_facets()}, [&](const Element& e, const Grade& grade) {
+      if (offends(e, grade)) bad.push_back(e);
+    });
+    return bad;
+  }
 
   /// Whether an element exists and is bad.
   bool is_offending(const Element& e) const
   {
-    if (tolerated_.count(e) > 0) return false;
     const auto& tr = mesh_.triangulation();
-    const auto v = [&](std::size_t i) { return mesh_.vertices()[static_cast<std::size_t>(e[i])]; };
     Cell_handle c;
     int i, j, k, l;
     if (e[3] >= 0)
-      return tr.is_cell(v(0), v(1), v(2), v(3), c, i, j, k, l) && c->subdomain() != 0 && measure_.cell(c).is_bad();
+      return tr.is_cell(vertex(e[0]), vertex(e[1]), vertex(e[2]), vertex(e[3]), c, i, j, k, l) && c->subdomain() != 0 &&
+             offends(e, grade(c));
     if (e[2] >= 0) {
-      if (!tr.is_facet(v(0), v(1), v(2), c, i, j, k)) return false;
-      const auto* f = mesh_.facet(c, 6 - i - j - k);
-      return f && is_bad(*f);
+      if (!tr.is_facet(vertex(e[0]), vertex(e[1]), vertex(e[2]), c, i, j, k)) return false;
+      const Facet* f = mesh_.facet(c, 6 - i - j - k);
+      return f && offends(e, grade(*f));
     }
     if (e[1] >= 0) {
-      const auto* crease_edge = mesh_.creases().edge(v(0), v(1));
-      return crease_edge && is_bad(*crease_edge);
+      const Crease_edge* edge = mesh_.creases().edge(vertex(e[0]), vertex(e[1]));
+      return edge && offends(e, grade(*edge));
     }
-    return !has_topological_disk(mesh_, v(0));
+    return offends(e, grade(vertex(e[0])));
   }
 
 private:
   struct Part
   {
     std::vector<Cell_handle> cells;
-    std::vector<int> facets;
+    std::vector<int> facets; ///< numbers of records
   };
+
+  /// How bad an element is; zeros for a good one.
+  struct Grade
+  {
+    double badness = 0;   ///< ratio of its worst measure to the bound
+    double deviation = 0; ///< squared distance from the surface
+    int astray = 0;       ///< of a boundary facet, vertices that don't lie on the boundary
+
+    bool is_bad() const { return badness > 0 || deviation > 0 || astray > 0; }
+    bool exceeds(const Grade& other) const
+    {
+      constexpr double slack = 1 + 1e-9;
+      return badness > slack * other.badness || deviation > slack * other.deviation || astray > other.astray;
+    }
+  };
+
+  Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
+  const Facet& facet(int record) const { return mesh_.facets()[static_cast<std::size_t>(record)]; }
 
   Part everything() const
   {
@@ -131,33 +162,54 @@ private:
     return all;
   }
 
-  std::vector<Element> offenders(const Part& part) const
+  /// Calls `visit(element, grade)` for the bad elements of a part, and for all bad crease edges.
+  template <class Visit>
+  void visit_bad(const Part& part, const Visit& visit) const
   {
-    std::vector<Element> bad;
-    const auto add = [&](const Element& e) {
-      if (tolerated_.count(e) == 0) bad.push_back(e);
+    const auto look = [&](const Element& e, const Grade& grade) {
+      if (grade.is_bad()) visit(e, grade);
     };
-    for (const int record : part.facets) {
-      const auto& f = mesh_.facets()[static_cast<std::size_t>(record)];
-      if (f.cell != Cell_handle() && is_bad(f)) add(key(f));
-    }
+    for (const int record : part.facets)
+      if (facet(record).cell != Cell_handle()) look(key(facet(record)), grade(facet(record)));
     for (const Cell_handle c : part.cells)
-      if (c->subdomain() != 0 && measure_.cell(c).is_bad()) add(key(c));
-    for (const auto& e : mesh_.creases().edges())
-      if (is_bad(e)) add(key(e));
-    for (const int id : boundary_vertices(part.cells))
-      if (!has_topological_disk(mesh_, mesh_.vertices()[static_cast<std::size_t>(id)])) add({id, -1, -1, -1});
-    return bad;
+      if (c->subdomain() != 0) look(key(c), grade(c));
+    for (const Crease_edge& e : mesh_.creases().edges()) look(key(e), grade(e));
+    for (const int id : boundary_vertices(part.cells)) look({id, -1, -1, -1}, grade(vertex(id)));
   }
 
-  bool is_bad(const typename Restricted::Restricted_facet& f) const
+  bool offends(const Element& e, const Grade& grade) const
   {
-    return hangs_inside(f) || measure_.facet(f).is_bad() || squared_deviation(f) > deviation_bound_;
+    if (!grade.is_bad()) return false;
+    const auto found = tolerated_.find(e);
+    return found == tolerated_.end() || grade.exceeds(found->second);
   }
+
+  // ---- grades
+
+  static Grade graded(const Badness_3& badness, double squared_deviation, double bound)
+  {
+    return {badness.is_bad() ? badness.ratio : 0, squared_deviation > bound ? squared_deviation : 0, 0};
+  }
+
+  Grade grade(Cell_handle c) const { return graded(measure_.cell(c), 0, 0); }
+
+  Grade grade(const Facet& f) const
+  {
+    Grade grade = graded(measure_.facet(f), squared_deviation(f), deviation_bound_);
+    for (int i = 1; i < 4; ++i) grade.astray += f.cell->vertex((f.index + i) & 3)->location().dimension > 2;
+    return grade;
+  }
+
+  Grade grade(const Crease_edge& e) const
+  {
+    return graded(measure_.crease_edge(e), squared_deviation(e), crease_deviation_bound_);
+  }
+
+  Grade grade(Vertex_handle v) const { return {has_topological_disk(mesh_, v) ? 0. : 1., 0, 0}; }
 
   /// Squared distance of a facet from the surface, sampled. The distance that refinement bounds is that along the
   /// facet's axis.
-  double squared_deviation(const typename Restricted::Restricted_facet& f) const
+  double squared_deviation(const Facet& f) const
   {
     const auto& a = f.cell->vertex((f.index + 1) & 3)->point();
     const auto& b = f.cell->vertex((f.index + 2) & 3)->point();
@@ -171,14 +223,9 @@ private:
     return farthest;
   }
 
-  bool is_bad(const typename Restricted::Crease_edge& e) const
-  {
-    return measure_.crease_edge(e).is_bad() || squared_deviation(e) > crease_deviation_bound_;
-  }
-
   /// Squared distance of the farthest corner of a crease from the edge that stands for it there: those corners to both
   /// sides of its Steiner point whose projections lie between the ends of the edge.
-  double squared_deviation(const typename Restricted::Crease_edge& e) const
+  double squared_deviation(const Crease_edge& e) const
   {
     const auto& points = mesh_.creases().points(static_cast<std::size_t>(e.steiner_crease));
     const auto& a = e.source->point();
@@ -204,17 +251,9 @@ private:
     if (mesh_.creases().edges().empty()) return false;
     for (int i = 0; i < 3; ++i)
       for (int j = i + 1; j < 4; ++j) {
-        const auto* e = mesh_.creases().edge(c->vertex(i), c->vertex(j));
-        if (e && is_bad(*e) && tolerated_.count(key(*e)) == 0) return true;
+        const Crease_edge* e = mesh_.creases().edge(c->vertex(i), c->vertex(j));
+        if (e && offends(key(*e), grade(*e))) return true;
       }
-    return false;
-  }
-
-  /// The boundary belongs to the vertices on it.
-  static bool hangs_inside(const typename Restricted::Restricted_facet& f)
-  {
-    for (int i = 1; i < 4; ++i)
-      if (f.cell->vertex((f.index + i) & 3)->location().dimension > 2) return true;
     return false;
   }
 
@@ -234,15 +273,12 @@ private:
     std::sort(ids.begin(), ids.end(), [](int a, int b) { return a > b; });
     return ids;
   }
-  static Element key(const typename Restricted::Crease_edge& e)
-  {
-    return sorted({e.source->id(), e.target->id(), -1, -1});
-  }
+  static Element key(const Crease_edge& e) { return sorted({e.source->id(), e.target->id(), -1, -1}); }
   static Element key(Cell_handle c)
   {
     return sorted({c->vertex(0)->id(), c->vertex(1)->id(), c->vertex(2)->id(), c->vertex(3)->id()});
   }
-  static Element key(const typename Restricted::Restricted_facet& f)
+  static Element key(const Facet& f)
   {
     const auto id = [&f](int i) { return f.cell->vertex((f.index + i) & 3)->id(); };
     return sorted({id(1), id(2), id(3), -1});
@@ -257,7 +293,7 @@ private:
 
   const Restricted& mesh_;
   Badness_measure_3<Restricted> measure_;
-  std::set<Element> tolerated_;
+  std::map<Element, Grade> tolerated_;
   double crease_deviation_bound_ = std::numeric_limits<double>::infinity(); ///< squared
   double deviation_bound_ = std::numeric_limits<double>::infinity();        ///< squared
 };

@@ -69,7 +69,7 @@ struct Smooth_report_3
   std::size_t undone_sweeps = 0; ///< that would have raised the energy
   std::size_t moves = 0;         ///< of vertices, in sweeps that were kept
   std::size_t locked = 0;        ///< vertices that stayed since all their cells are excellent, summed over sweeps
-  std::size_t rejected = 0;      ///< moves taken back since a criterion would have been violated
+  std::size_t rejected = 0;      ///< moves shortened or taken back since a criterion would have been violated
   double energy_before = 0, energy_after = 0; ///< ODT energy, in the metric of the sizes at the time
   Relocation_counts_3 relocations;
   double seconds = 0;
@@ -227,37 +227,25 @@ private:
 
   // ---- what a sweep mustn't break
 
-  /// Moves the vertices of elements that became bad back to where they were, then those around, until all is well: at
-  /// worst when all are back.
+  /// Shortens the moves of the vertices of elements that became bad, then those of the vertices around, until all is
+  /// well: at worst when all are back.
   void take_back(const std::vector<Point>& old)
   {
-    std::vector<int> place(mesh_.vertices().size(), -1);
-    for (std::size_t i = 0; i < ids_.size(); ++i) place[static_cast<std::size_t>(ids_[i])] = static_cast<int>(i);
-    std::vector<char> is_back(ids_.size(), false);
+    place_.assign(mesh_.vertices().size(), none);
+    for (std::size_t i = 0; i < ids_.size(); ++i) place_[static_cast<std::size_t>(ids_[i])] = i;
+    parts_.assign(ids_.size(), 1);
     auto bad = guard_.new_offenders();
     for (int round = 0; !bad.empty(); ++round) {
+      const std::vector<std::size_t> shortened = shorten_moves(bad, round);
+      if (shortened.empty()) break; // all is as it was
       std::vector<int> ids;
       std::vector<Point> points;
-      const auto move_back = [&](int id) {
-        const int i = place[static_cast<std::size_t>(id)];
-        if (i < 0 || is_back[static_cast<std::size_t>(i)]) return false;
-        is_back[static_cast<std::size_t>(i)] = true;
-        ids.push_back(id);
-        points.push_back(old[static_cast<std::size_t>(i)]);
-        return true;
-      };
-      for (const auto& element : bad) {
-        bool helps = false;
-        for (const int id : element)
-          if (id >= 0) helps = move_back(id) || helps;
-        if (!helps || round >= patient_rounds) move_neighbours_back(element, move_back);
+      for (const std::size_t i : shortened) {
+        ids.push_back(ids_[i]);
+        points.push_back(parts_[i] > 0 ? part_of_the_way(old[i], targets_[i], parts_[i], vertex(ids_[i])->location())
+                                       : old[i]);
       }
-      if (ids.empty())
-        for (const int id : ids_) move_back(id);
-      if (ids.empty()) break; // as it was: nothing was bad then
-      for (const int id : ids) steps_[static_cast<std::size_t>(id)] /= 2;
-      report_.rejected += ids.size();
-      mesh_.relocate(ids, points);
+      report_.relocations += mesh_.relocate(ids, points);
       auto next = guard_.new_offenders();
       for (const auto& element : bad)
         if (guard_.is_offending(element)) next.push_back(element);
@@ -265,18 +253,58 @@ private:
       next.erase(std::unique(next.begin(), next.end()), next.end());
       bad.swap(next);
     }
-    kept_ -= static_cast<std::size_t>(std::count(is_back.begin(), is_back.end(), true));
+    learn_steps();
   }
 
-  template <class Move_back>
-  void move_neighbours_back(const std::array<int, 4>& element, const Move_back& move_back)
+  /// The moves that were made shorter, by their places in `ids_`.
+  std::vector<std::size_t> shorten_moves(const std::vector<typename Criteria_guard_3<Restricted>::Element>& bad,
+                                         int round)
   {
-    for (const int id : element) {
-      if (id < 0) continue;
-      neighbours_.clear();
-      mesh_.triangulation().finite_adjacent_vertices(vertex(id), std::back_inserter(neighbours_));
-      for (const Vertex_handle w : neighbours_)
-        if (w->id() >= 0) move_back(w->id());
+    std::vector<std::size_t> shortened;
+    const auto shorten = [&](int id) {
+      const std::size_t i = place_[static_cast<std::size_t>(id)];
+      if (i == none || parts_[i] == 0) return false;
+      shortened.push_back(i);
+      return true;
+    };
+    for (const auto& element : bad) {
+      bool helps = false;
+      for (const int id : element)
+        if (id >= 0) helps = shorten(id) || helps;
+      if (helps) continue;
+      for (const int id : element)
+        if (id >= 0) shorten_around(id, shorten);
+    }
+    if (shortened.empty() || round >= most_rounds) // not seen to end so far
+      for (const int id : ids_) shorten(id);
+    std::sort(shortened.begin(), shortened.end());
+    shortened.erase(std::unique(shortened.begin(), shortened.end()), shortened.end());
+    for (const std::size_t i : shortened) parts_[i] = round < most_rounds && parts_[i] > least_part ? parts_[i] / 2 : 0;
+    return shortened;
+  }
+
+  template <class Shorten>
+  void shorten_around(int id, const Shorten& shorten)
+  {
+    neighbours_.clear();
+    mesh_.triangulation().finite_adjacent_vertices(vertex(id), std::back_inserter(neighbours_));
+    for (const Vertex_handle w : neighbours_)
+      if (w->id() >= 0) shorten(w->id());
+  }
+
+  Point part_of_the_way(const Point& from, const Point& to, double part, const Vertex_location_3& at) const
+  {
+    return on_own_place(from + part * (to - from), at);
+  }
+
+  /// Moves that had to be shortened begin shorter in the next sweep.
+  void learn_steps()
+  {
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      double& step = steps_[static_cast<std::size_t>(ids_[i])];
+      step = parts_[i] == 1 ? (std::min)(1., 1.5 * step) : step * (std::max)(parts_[i], least_part);
+      kept_ -= parts_[i] == 0;
+      report_.rejected += parts_[i] < 1;
     }
   }
 
@@ -299,8 +327,9 @@ private:
   }
 
   static constexpr double degree = 3.14159265358979323846 / 180;
-  static constexpr double least_relaxation = 0.1, least_step = 0.1;
-  static constexpr int patient_rounds = 3;
+  static constexpr double least_relaxation = 0.1, least_step = 0.05, least_part = 0.25;
+  static constexpr int most_rounds = 20;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted> guard_;
@@ -311,7 +340,9 @@ private:
   std::vector<double> steps_; ///< by id: the same for each of them
   std::vector<int> ids_;      ///< of the vertices that a sweep moves
   std::vector<Point> targets_;
-  std::size_t kept_ = 0; ///< moves of a sweep that weren't taken back
+  std::vector<std::size_t> place_; ///< by id: place in `ids_`
+  std::vector<double> parts_;      ///< of these moves, the parts that are made
+  std::size_t kept_ = 0;           ///< moves of a sweep that weren't taken back
   std::vector<Vertex_handle> neighbours_;
   internal::Timer timer_;
   Smooth_report_3 report_;
