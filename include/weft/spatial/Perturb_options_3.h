@@ -29,7 +29,7 @@ struct Perturb_options_3
   double step = 2;            ///< by which the bound is raised
   int most_passes = 8;        ///< over the vertices of cells below a bound
   int random_trials = 24;     ///< random places for a vertex
-  double insertions = 0.04;   ///< most vertices to add, those removed counted off, in parts of those there are
+  double insertions = 0.15;   ///< most vertices to add, those removed counted off, in parts of those there are
   double random_reach = 0.35; ///< how far from it, in parts of its shortest edge
   Perturb_directions_3 directions = Perturb_directions_3::combined;
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
@@ -59,8 +59,9 @@ struct Perturb_report_3
   std::size_t by_radius = 0, by_volume = 0, by_chance = 0; ///< moves that were kept, by direction
   std::size_t insertions = 0, removals = 0;                ///< of vertices, where no move helped
   std::size_t refused_cells = 0, refused_facets = 0, refused_disks = 0,
-              refused_creases = 0; ///< good moves not made:
-                                   ///< what would have suffered
+              refused_creases = 0;       ///< good moves not made:
+                                         ///< what would have suffered
+  std::size_t kicks = 0, kicks_kept = 0; ///< of the neighbourhood of stuck cells
   double seconds = 0;
 
   std::size_t refused() const { return refused_cells + refused_facets + refused_disks + refused_creases; }

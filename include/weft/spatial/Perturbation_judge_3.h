@@ -64,8 +64,7 @@ public:
     for (const Cell_handle c : filling) {
       Filler f{c, -1, -1, false, true};
       if (!Restricted::is_at_box(c)) {
-        c->set_circumcenter(circumcenter_3<Kernel>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
-                                                   c->vertex(3)->point()));
+        c->set_circumcenter(circumcenter_of_cell_3<Kernel>(c));
         const Dihedral_cosines_3 x = cosines(c);
         f = {c, sliver_measure(x), x.smallest, false, false};
       }
@@ -121,22 +120,15 @@ public:
     return worst;
   }
 
-  /// Whether the cells that a vertex at the point of `zone()` would make have the shape that is asked for.
-  bool would_fit(double shape, Perturb_report_3& report) const
+  /// Whether the cells that a vertex at the point of `zone()` would make meet the criteria.
+  bool would_fit() const
   {
-    if (!(shape > 0)) return true;
-    for (const auto& facet : zone_.hull) {
+    return std::all_of(zone_.hull.begin(), zone_.hull.end(), [this](const auto& facet) {
       std::array<Point, 4> p;
-      if (!corners(facet, p)) continue;
+      if (!corners(facet, p)) return true;
       const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
-      double shortest = CGAL::to_double(CGAL::squared_distance(p[0], p[1]));
-      for (const auto& [i, j] : {std::pair(0, 2), std::pair(0, 3), std::pair(1, 2), std::pair(1, 3), std::pair(2, 3)})
-        shortest = (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(p[i], p[j])));
-      if (CGAL::to_double(CGAL::squared_distance(o, p[0])) <= shape * shape * shortest || !is_inside(o)) continue;
-      ++report.refused_cells;
-      return false;
-    }
-    return true;
+      return !measure_.cell({&p[0], &p[1], &p[2], &p[3]}, o).is_bad() || !is_inside(o);
+    });
   }
 
   /// Whether the boundary is still a surface around what changed last, and every element made satisfies the criteria.

@@ -185,6 +185,19 @@ public:
     update();
   }
 
+  /// Exchanges the numbers of two vertices; the creases hear of it at the next `update()`, which is done at once.
+  void exchange_numbers(int i, int j)
+  {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    if (a == b) return;
+    std::swap(vertices_[a], vertices_[b]);
+    std::swap(touched_[a], touched_[b]);
+    vertices_[a]->set_id(i);
+    vertices_[b]->set_id(j);
+    tracer_.renumber();
+    tracer_.update([](Vertex_handle) { return false; });
+  }
+
   /// Removes the vertex that was inserted last and classifies what fills its place.
   void remove_last()
   {
@@ -450,8 +463,7 @@ private:
   {
     internal::parallel_for(new_cells_.size(), threads_, [this](std::size_t k) {
       const Cell_handle c = new_cells_[k];
-      c->set_circumcenter(circumcenter_3<Kernel>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
-                                                 c->vertex(3)->point()));
+      c->set_circumcenter(circumcenter_of_cell_3<Kernel>(c));
     });
   }
 

@@ -44,23 +44,42 @@ public:
   {
     mend,   ///< a cell at it is below the bound
     better, ///< always, if that betters its star
-    shake   ///< always, if nothing it makes is below the bound: makes room for others
+    shake,  ///< always, if nothing it makes is below the bound: makes room for others
+    kick    ///< always, if nothing it makes is below the bound for kicks
   };
 
   Vertex_perturber_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Perturb_options_3& options,
                      Perturb_report_3& report)
-      : mesh_(mesh),
-        criteria_(criteria),
-        options_(options),
-        report_(report),
-        judge_(mesh, criteria),
-        random_(options.seed)
+      : mesh_(mesh), options_(options), report_(report), judge_(mesh, criteria), random_(options.seed)
   {}
 
   Judge& judge() { return judge_; }
 
   /// Cells that measure more are slivers.
   void set_bound(double bound) { bound_ = bound; }
+  void set_kick_bound(double bound) { kick_bound_ = bound; }
+
+  /// Changes from here on may be undone.
+  void begin() { log_.clear(); }
+
+  /// Undoes all changes since `begin()`: a Delaunay triangulation is determined by its points.
+  void undo()
+  {
+    for (; !log_.empty(); log_.pop_back()) {
+      const Change& change = log_.back();
+      if (change.kind == Change::insertion) {
+        mesh_.remove_last();
+        continue;
+      }
+      if (change.kind == Change::move) {
+        take(mesh_.take_away(vertex(change.id)));
+        judge_.find_zone(change.point, near_);
+        mesh_.put_back(judge_.zone(), change.location, change.id, filling_);
+        continue;
+      }
+      reinsert(change.point, change.location, change.id, mesh_.vertices().front()->cell());
+    }
+  }
 
   /// Moves a vertex; whether it was moved. Feature vertices stay.
   bool move(int id, Purpose purpose, int trials)
@@ -71,16 +90,19 @@ public:
     load_star(v);
     if (purpose == Purpose::mend && limit_ <= bound_) return false; // mended meanwhile
     if (purpose == Purpose::shake) limit_ = (std::max)(limit_, bound_);
+    if (purpose == Purpose::kick) limit_ = (std::max)(limit_, kick_bound_);
+    enough_ = purpose == Purpose::kick ? kick_bound_ : bound_;
     most_ = Judge::no_good;
     ++report_.tried_vertices;
     const Point origin = v->point();
     take(mesh_.take_away(v));
-    find_places(origin, trials, purpose == Purpose::shake);
+    find_places(origin, trials, purpose == Purpose::shake || purpose == Purpose::kick);
     for (const Place& place : places_) {
-      if (!judge_.find_zone(place.point, near_) || !judge_.would_fit(criteria_.cell_shape, report_)) continue;
+      if (!judge_.find_zone(place.point, near_)) continue;
       mesh_.put_back(judge_.zone(), location_, id, filling_);
       if (judge_.is_acceptable(report_)) {
         ++(report_.*place.direction);
+        log_.push_back({Change::move, id, origin, location_});
         return true;
       }
       take(mesh_.take_away_again(vertex(id)));
@@ -91,8 +113,9 @@ public:
   }
 
   /// Inserts a vertex near a cell, inside, on a patch or on a crease; whether it did.
-  /// \param mends whether nothing that it makes may be below the bound.
-  bool insert_near(Cell_handle c, int trials, bool mends)
+  /// \param most how bad the cells may be that it makes.
+  /// \param anywhere whether it may lie inside, on every patch and on every crease of the cell; else one is drawn.
+  bool insert_near(Cell_handle c, int trials, double most, bool anywhere = true)
   {
     const Point center =
         CGAL::centroid(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
@@ -100,20 +123,23 @@ public:
     judge_.set_filling(filling_);
     near_ = c;
     limit_ = Judge::measure(c);
-    most_ = mends ? bound_ : limit_;
+    most_ = enough_ = most;
+    limit_ = (std::max)(limit_, most);
     reach_ = std::sqrt(shortest_squared_edge(c));
-    const std::vector<Vertex_location_3> locations = locations_around(c);
+    std::vector<Vertex_location_3> locations = locations_around(c);
+    if (!anywhere) locations = {locations[random_() % locations.size()]};
     for (const Vertex_location_3& location : locations) {
       location_ = location;
       places_.clear();
       search(center, 1, trials / static_cast<int>(locations.size()));
       keep_best_places();
       for (const Place& place : places_) {
-        if (!judge_.find_zone(place.point, near_) || !judge_.would_fit(criteria_.cell_shape, report_)) continue;
+        if (!judge_.find_zone(place.point, near_)) continue;
         mesh_.insert(judge_.zone(), location_);
         mesh_.update();
         if (judge_.is_acceptable(report_)) {
           ++report_.insertions;
+          log_.push_back({Change::insertion, 0, place.point, location_});
           return true;
         }
         mesh_.remove_last();
@@ -123,29 +149,29 @@ public:
     return false;
   }
 
-  /// Removes a vertex; whether it did. Feature vertices stay. Ids change: the last vertex takes its number, and if it
-  /// was put back it has got the last.
-  bool remove(int id)
+  /// Removes a vertex; whether it did. Feature vertices stay. The last vertex takes its number.
+  /// \param most how bad the cells may be that this makes, if they aren't better than those unmade.
+  bool remove(int id, double most)
   {
     const Vertex_handle v = vertex(id);
     location_ = v->location();
     if (location_.dimension < 1) return false;
     load_star(v);
+    const std::vector<int> patches = patches_of_star();
     const Point origin = v->point();
     take(mesh_.take_away(v));
-    if (judge_.judge_filling(limit_) == Judge::no_good) {
+    if (judge_.judge_filling((std::max)(limit_, most)) == Judge::no_good) {
       judge_.find_zone(origin, near_);
       mesh_.put_back(judge_.zone(), location_, id, filling_);
       return false;
     }
     mesh_.leave_out(id, filling_);
-    if (judge_.is_acceptable(report_)) {
+    if (judge_.is_acceptable(report_) && none_is_bare(patches)) {
       ++report_.removals;
+      log_.push_back({Change::removal, id, origin, location_});
       return true;
     }
-    judge_.find_zone(origin, mesh_.new_cells().front());
-    mesh_.insert(judge_.zone(), location_);
-    mesh_.update();
+    reinsert(origin, location_, id, mesh_.new_cells().front());
     return false;
   }
 
@@ -156,6 +182,27 @@ private:
     double measure; ///< of the worst cell made
     std::size_t Perturb_report_3::*direction;
   };
+
+  struct Change
+  {
+    enum Kind
+    {
+      move,
+      insertion,
+      removal
+    } kind;
+    int id; ///< of the vertex, unless inserted
+    Point point;
+    Vertex_location_3 location;
+  };
+
+  void reinsert(const Point& p, const Vertex_location_3& location, int id, Cell_handle near)
+  {
+    judge_.find_zone(p, near);
+    mesh_.insert(judge_.zone(), location);
+    mesh_.update();
+    mesh_.exchange_numbers(id, static_cast<int>(mesh_.vertices().size()) - 1);
+  }
 
   Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
 
@@ -184,6 +231,31 @@ private:
       if (x > bound_) add_gradients(c, c->index(v));
     }
     reach_ = std::sqrt(shortest);
+  }
+
+  /// On which patches the facets of the star lie.
+  std::vector<int> patches_of_star() const
+  {
+    std::vector<int> patches;
+    for (const Cell_handle c : cells_)
+      for (int i = 0; i < 4; ++i)
+        if (const auto* f = mesh_.facet(c, i)) patches.push_back(f->patch);
+    std::sort(patches.begin(), patches.end());
+    patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+    return patches;
+  }
+
+  /// Whether what filled the place of a vertex has facets on all of its patches, and its crease still has edges.
+  bool none_is_bare(const std::vector<int>& patches) const
+  {
+    const auto has_facet = [this](int patch) {
+      return std::any_of(mesh_.new_facets().begin(), mesh_.new_facets().end(),
+                         [&](int record) { return mesh_.facets()[static_cast<std::size_t>(record)].patch == patch; });
+    };
+    const auto& edges = mesh_.creases().edges();
+    return std::all_of(patches.begin(), patches.end(), has_facet) &&
+           (location_.dimension != 1 ||
+            std::any_of(edges.begin(), edges.end(), [this](const auto& e) { return e.crease == location_.index; }));
   }
 
   void add_gradients(Cell_handle c, int i)
@@ -227,7 +299,7 @@ private:
         try_along(origin, by_radius_, step, &Perturb_report_3::by_radius);
         try_along(origin, by_volume_, step, &Perturb_report_3::by_volume);
       }
-    if (std::none_of(places_.begin(), places_.end(), [this](const Place& p) { return p.measure <= bound_; }))
+    if (std::none_of(places_.begin(), places_.end(), [this](const Place& p) { return p.measure <= enough_; }))
       search(origin, options_.random_reach, trials);
     keep_best_places();
   }
@@ -258,7 +330,7 @@ private:
       if (!near_best) radius = 0.3 * reach;
       best = measure;
       at = places_.back().point;
-      if (best <= bound_) break;
+      if (best <= enough_) break;
     }
   }
 
@@ -274,8 +346,9 @@ private:
     if (location_.dimension == 3 && mesh_.oracle().subdomain(p) == 0) return Judge::no_good;
     if (!judge_.find_zone(p, near_)) return Judge::no_good;
     const double measure = judge_.judge(limit_);
-    if (measure > most_) return Judge::no_good;
-    if (measure < Judge::no_good) places_.push_back({p, measure, direction});
+    if (measure > most_ || measure >= Judge::no_good) return Judge::no_good;
+    if (!judge_.would_fit()) return ++report_.refused_cells, Judge::no_good;
+    places_.push_back({p, measure, direction});
     return measure;
   }
 
@@ -289,15 +362,16 @@ private:
   static constexpr std::size_t most_places = 3; ///< of the best, how many are tried for good
 
   Restricted& mesh_;
-  const Criteria_3<Kernel>& criteria_;
   const Perturb_options_3& options_;
   Perturb_report_3& report_;
   Judge judge_;
   std::mt19937 random_;
-  double bound_ = 1;
+  double bound_ = 1, kick_bound_ = 1;
+  std::vector<Change> log_;
 
   Vertex_location_3 location_;     ///< of the vertex that is moved or inserted
   double limit_ = -1, reach_ = 0;  ///< what it has to better; the shortest edge around
+  double enough_ = 0;              ///< what ends the search
   double most_ = 0;                ///< what it must not make, whatever it unmakes
   Vector by_radius_, by_volume_;   ///< directions
   Cell_handle near_;               ///< a cell near it

@@ -10,7 +10,10 @@
 #include <CGAL/number_utils.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace weft {
 
@@ -44,6 +47,20 @@ typename K::Point_3 circumcenter_3(const typename K::Point_3& a, const typename 
   const double f = 0.5 / det;
   return {a.x() + f * (b2 * cdx + c2 * dbx + d2 * bcx), a.y() + f * (b2 * cdy + c2 * dby + d2 * bcy),
           a.z() + f * (b2 * cdz + c2 * dbz + d2 * bcz)};
+}
+
+/// The circumcenter of a cell of a triangulation, the same to the last bit whatever the order of its vertices: a cell
+/// that goes and comes back has the one it had.
+template <class K, class Cell_handle>
+typename K::Point_3 circumcenter_of_cell_3(Cell_handle c)
+{
+  std::array<const typename K::Point_3*, 4> p{};
+  for (int i = 0; i < 4; ++i) p[static_cast<std::size_t>(i)] = &c->vertex(i)->point();
+  const auto order = [&p](std::size_t i, std::size_t j) {
+    if (*p[j] < *p[i]) std::swap(p[i], p[j]);
+  };
+  order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
+  return circumcenter_3<K>(*p[0], *p[1], *p[2], *p[3]);
 }
 
 } // namespace weft

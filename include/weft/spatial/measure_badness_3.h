@@ -14,7 +14,9 @@
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace weft {
@@ -39,12 +41,19 @@ public:
   /// A cell, wherever it lies: size and shape.
   Badness_3 cell(Cell_handle c) const
   {
+    return cell({&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()},
+                c->circumcenter());
+  }
+
+  /// A cell that isn't there yet.
+  Badness_3 cell(const std::array<const Point*, 4>& p, const Point& circumcenter) const
+  {
     Badness_3 badness;
     double shortest = -1;
-    for (int i = 0; i < 3; ++i)
-      for (int j = i + 1; j < 4; ++j) add_edge(c->vertex(i)->point(), c->vertex(j)->point(), badness, shortest);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) add_edge(*p[i], *p[j], badness, shortest);
     if (criteria_->cell_shape > 0) {
-      const double r = squared(c->circumcenter(), c->vertex(0)->point());
+      const double r = squared(circumcenter, *p[0]);
       badness.add(std::sqrt(r / shortest) / (factor_ * criteria_->cell_shape), bad_shape);
     }
     return badness;

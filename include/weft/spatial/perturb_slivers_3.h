@@ -16,13 +16,11 @@
 #include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/Perturb_options_3.h>
-#include <weft/spatial/Vertex_perturber_3.h>
+#include <weft/spatial/Sliver_mender_3.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -38,15 +36,12 @@ public:
   using Vertex_handle = typename Restricted::Vertex_handle;
 
   Sliver_perturber_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Perturb_options_3& options)
-      : mesh_(mesh),
-        options_(options),
-        perturber_(mesh, criteria, options, report_),
-        most_insertions_(static_cast<std::size_t>(options.insertions * static_cast<double>(mesh.vertices().size())))
+      : mesh_(mesh), options_(options), mender_(mesh, criteria, options, report_, timer_)
   {}
 
   Perturb_report_3 run()
   {
-    look_around();
+    look_around(0);
     report_.before = report_.after;
     raise_bounds();
     mend_worst();
@@ -55,9 +50,8 @@ public:
   }
 
 private:
-  using Perturber = Vertex_perturber_3<Restricted>;
-  using Purpose = typename Perturber::Purpose;
-  using Judge = typename Perturber::Judge;
+  using Mender = Sliver_mender_3<Restricted>;
+  using Judge = typename Mender::Judge;
 
   static constexpr double degree = 3.14159265358979323846 / 180;
 
@@ -78,49 +72,37 @@ private:
     }
   };
 
-  /// A cell by the ids of its vertices, since cells go.
-  struct Sliver
-  {
-    double measure;
-    std::array<int, 4> vertices;
-
-    bool operator<(const Sliver& other) const
-    {
-      return measure != other.measure ? measure > other.measure : vertices < other.vertices;
-    }
-  };
-
   static double degrees(double cosine) { return std::acos((std::max)(-1.0, (std::min)(1.0, cosine))) / degree; }
-
-  bool is_late() const { return timer_.seconds() >= options_.time_limit; }
 
   bool goes_on()
   {
-    return !is_late() && report_.after < options_.target && (!options_.go_on || options_.go_on(report_.after));
+    return !mender_.is_late() && report_.after < options_.target && (!options_.go_on || options_.go_on(report_.after));
   }
 
-  /// Measures all cells: the smallest dihedral angle, below which nothing may fall from here on, and the slivers.
-  void look_around()
+  /// Measures all cells: the smallest dihedral angle, below which nothing may fall from here on, and the worst cells.
+  /// \param most how many of those that are worse than the target are kept in `worst_`.
+  void look_around(std::size_t most)
   {
+    const double target = std::cos(options_.target * degree);
     double smallest = -1;
-    slivers_ = 0;
-    worst_ = -1;
+    std::vector<std::pair<double, Cell_handle>> cells;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
       if (c->subdomain() == 0) continue;
       const Dihedral_cosines_3 x = Judge::cosines(c);
-      const double measure = sliver_measure(x);
       smallest = (std::max)(smallest, x.smallest);
-      worst_ = (std::max)(worst_, measure);
-      slivers_ += measure > bound_;
+      if (most > 0 && sliver_measure(x) > target) cells.emplace_back(sliver_measure(x), c);
     }
+    if (cells.size() > most) {
+      const auto last = cells.begin() + static_cast<std::ptrdiff_t>(most);
+      std::nth_element(cells.begin(), last, cells.end(),
+                       [](const auto& a, const auto& b) { return a.first > b.first; });
+      cells.erase(last, cells.end());
+    }
+    worst_.clear();
+    for (const auto& [measure, c] : cells) worst_.push_back(Mender::sliver_of(c, measure));
+    std::sort(worst_.begin(), worst_.end());
     report_.after = degrees(smallest);
-    perturber_.judge().set_floor(smallest);
-  }
-
-  void set_bound(double measure)
-  {
-    bound_ = measure;
-    perturber_.set_bound(measure);
+    mender_.set_floor(smallest);
   }
 
   // ---- bounds over the whole mesh
@@ -128,10 +110,10 @@ private:
   void raise_bounds()
   {
     for (double bound = options_.first_bound; goes_on(); bound += options_.step) {
-      set_bound(std::cos((std::min)(bound, options_.target) * degree));
+      mender_.set_bound(std::cos((std::min)(bound, options_.target) * degree));
       for (int pass = 0; pass < options_.most_passes && goes_on(); ++pass) {
         const std::size_t mended = run_pass() + insert_vertices();
-        look_around();
+        look_around(0);
         if (mended == 0) break;
       }
       if (bound >= (std::min)(options_.target, last_bound)) break;
@@ -145,8 +127,8 @@ private:
     std::sort(candidates.begin(), candidates.end());
     std::size_t moved = 0;
     for (const Candidate& candidate : candidates) {
-      if (is_late()) break;
-      moved += perturber_.move(candidate.id, Purpose::mend, options_.random_trials);
+      if (mender_.is_late()) break;
+      moved += mender_.perturber().move(candidate.id, Mender::Purpose::mend, options_.random_trials);
     }
     return moved;
   }
@@ -157,7 +139,7 @@ private:
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
       if (c->subdomain() == 0) continue;
       const double x = Judge::measure(c);
-      if (x <= bound_) continue;
+      if (x <= mender_.bound()) continue;
       for (int i = 0; i < 4; ++i) {
         const Vertex_handle v = c->vertex(i);
         Candidate& candidate = all[static_cast<std::size_t>(v->id())];
@@ -174,135 +156,57 @@ private:
   /// Inserts a vertex near each cell below the bound, where that helps; how many.
   std::size_t insert_vertices()
   {
+    std::vector<Sliver_3> slivers;
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
+      if (c->subdomain() == 0) continue;
+      const double x = Judge::measure(c);
+      if (x > mender_.bound()) slivers.push_back(Mender::sliver_of(c, x));
+    }
+    std::sort(slivers.begin(), slivers.end());
     std::size_t inserted = 0;
-    for (const Sliver& sliver : list_slivers(bound_)) {
-      if (is_late() || !may_insert()) break;
-      const Cell_handle c = cell(sliver);
-      if (c != Cell_handle()) inserted += perturber_.insert_near(c, insertion_trials, true);
+    for (const Sliver_3& sliver : slivers) {
+      if (mender_.is_late() || !mender_.may_insert()) break;
+      const Cell_handle c = mender_.cell(sliver);
+      if (c != Cell_handle()) inserted += mender_.perturber().insert_near(c, insertion_trials, mender_.bound());
     }
     return inserted;
   }
 
-  bool may_insert() const { return report_.insertions < most_insertions_ + report_.removals; }
-
-  /// Cells that measure more, the worst first.
-  std::vector<Sliver> list_slivers(double bound) const
-  {
-    std::vector<Sliver> slivers;
-    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (c->subdomain() == 0) continue;
-      const double x = Judge::measure(c);
-      if (x <= bound) continue;
-      slivers.push_back({x, {}});
-      for (std::size_t i = 0; i < 4; ++i) slivers.back().vertices[i] = c->vertex(static_cast<int>(i))->id();
-      std::sort(slivers.back().vertices.begin(), slivers.back().vertices.end());
-    }
-    std::sort(slivers.begin(), slivers.end());
-    return slivers;
-  }
-
-  /// The cell if it is there still and still a sliver.
-  Cell_handle cell(const Sliver& sliver) const
-  {
-    Vertex_handle v[4];
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto id = static_cast<std::size_t>(sliver.vertices[i]);
-      if (id >= mesh_.vertices().size()) return Cell_handle(); // removals have changed ids
-      v[i] = mesh_.vertices()[id];
-    }
-    Cell_handle c;
-    int i, j, k, l;
-    if (!mesh_.triangulation().is_cell(v[0], v[1], v[2], v[3], c, i, j, k, l)) return Cell_handle();
-    return c->subdomain() != 0 && Judge::measure(c) > bound_ ? c : Cell_handle();
-  }
-
   // ---- the worst cells
 
+  /// Works on the worst few cells until they stay for as many trials as all progress has taken.
   void mend_worst()
   {
-    for (int idle = 0; idle < patience && goes_on();) {
-      std::vector<Sliver> worst = list_slivers(std::cos(options_.target * degree));
-      if (worst.empty()) break;
-      const std::size_t batch = (std::max)(least_batch, mesh_.vertices().size() / 400);
-      if (worst.size() > batch) worst.resize(batch);
-      set_bound(worst.back().measure - 1e-9);
-      const double before = worst.front().measure;
+    std::size_t last_progress = report_.trials;
+    const std::size_t batch = (std::max)(least_batch, mesh_.vertices().size() / batch_divisor);
+    look_around(batch);
+    for (int idle = 0; !worst_.empty() && report_.trials < 2 * last_progress + patience && goes_on();) {
+      mender_.set_bound(std::nextafter(worst_.back().measure, -1.0)); // the last is a sliver, too
+      const std::vector<Sliver_3> worst = std::move(worst_);
       std::size_t mended = 0;
-      for (std::size_t k = 0; k < worst.size() && !is_late(); ++k) mended += mend(worst[k], k < 3 ? 2 + idle : 0);
-      look_around();
+      for (std::size_t k = 0; k < worst.size() && !mender_.is_late(); ++k)
+        mended += mender_.mend(worst[k], k < very_worst ? 1 + idle : 0);
+      look_around(batch);
       ++report_.passes;
-      ++idle;
-      if (worst_ < before - 1e-4 || mended > worst.size() / 4) idle = 0;
+      idle = worst_.empty() || worst_.front().measure < worst.front().measure - 1e-4 ? 0 : idle + 1;
+      if (idle == 0 || mended > worst.size() / 4) last_progress = report_.trials;
     }
-  }
-
-  /// Tries everything on a cell; whether it is gone or better than the bound.
-  bool mend(const Sliver& sliver, int effort)
-  {
-    const int trials = options_.random_trials << (std::min)(effort, 5);
-    if (move_vertices(sliver, trials)) return true;
-    Cell_handle c = cell(sliver);
-    if (c == Cell_handle()) return true;
-    if (may_insert() && perturber_.insert_near(c, 4 * trials, true)) return true;
-    if (remove_one(sliver)) return true;
-    if (effort == 0) return false;
-    const std::vector<int> around = vertices_around(cell(sliver));
-    for (const Purpose purpose : {Purpose::better, Purpose::shake})
-      for (const int id : around) {
-        if (is_late()) return false;
-        perturber_.move(id, purpose, options_.random_trials);
-        if (cell(sliver) == Cell_handle()) return true;
-      }
-    return move_vertices(sliver, trials);
-  }
-
-  bool move_vertices(const Sliver& sliver, int trials)
-  {
-    for (const int id : sliver.vertices) {
-      if (cell(sliver) == Cell_handle()) return true;
-      if (is_late()) return false;
-      perturber_.move(id, Purpose::mend, trials);
-    }
-    return cell(sliver) == Cell_handle();
-  }
-
-  bool remove_one(const Sliver& sliver)
-  {
-    for (const int id : sliver.vertices) {
-      const std::size_t vertices = mesh_.vertices().size();
-      const Vertex_handle v = mesh_.vertices()[static_cast<std::size_t>(id)];
-      if (perturber_.remove(id)) return true;
-      if (mesh_.vertices().size() != vertices || mesh_.vertices()[static_cast<std::size_t>(id)] != v) return false;
-    }
-    return false;
-  }
-
-  std::vector<int> vertices_around(Cell_handle c) const
-  {
-    std::vector<int> around;
-    std::vector<Cell_handle> star;
-    for (int i = 0; i < 4 && c != Cell_handle(); ++i)
-      mesh_.triangulation().incident_cells(c->vertex(i), std::back_inserter(star));
-    for (const Cell_handle n : star)
-      for (int k = 0; k < 4; ++k)
-        if (n->vertex(k)->location().dimension > 0) around.push_back(n->vertex(k)->id());
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    return around;
   }
 
   static constexpr double last_bound = 20; ///< degrees, up to where the whole mesh is worked on
   static constexpr int insertion_trials = 200;
-  static constexpr std::size_t least_batch = 10;
-  static constexpr int patience = 16;
+  static constexpr std::size_t patience = 200000; ///< trials
+  // Smallest angle of elephant and dino after 8 s: batches of 10 and vertices / 400: 27.8, 25.6; of 30 and / 100: 28.7,
+  // 26.5; of 60 and / 50: 28.0, 27.0.
+  static constexpr std::size_t least_batch = 40, batch_divisor = 80;
+  static constexpr std::size_t very_worst = 3; ///< these are worked on ever harder
 
   Restricted& mesh_;
   const Perturb_options_3& options_;
   internal::Timer timer_;
   Perturb_report_3 report_;
-  Perturber perturber_;
-  std::size_t most_insertions_, slivers_ = 0;
-  double bound_ = 1, worst_ = 1; ///< sliver measures
+  Mender mender_;
+  std::vector<Sliver_3> worst_;
 };
 
 /// Raises the smallest dihedral angle of a mesh as far as `options.target` by moving, inserting and removing vertices

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Properties of sliver perturbation: gradients against differences, angles against their definition, changes that can
+// be undone, crease vertices that come and go, and what has to hold whenever and however a run ends.
+
+#include "surface_fixtures.h"
+
+#include <weft/make_mesh_3.h>
+#include <weft/spatial/check_criteria_3.h>
+#include <weft/spatial/check_restricted_3.h>
+#include <weft/spatial/features_3.h>
+#include <weft/spatial/hausdorff_3.h>
+#include <weft/spatial/perturb_slivers_3.h>
+#include <weft/spatial/validate_3.h>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace {
+
+using surfaces::K;
+using surfaces::Point;
+using surfaces::Surface;
+using Vector = K::Vector_3;
+using Oracle = weft::Polyhedral_oracle_3<K>;
+using Criteria = weft::Criteria_3<K>;
+using Mesh = weft::Tetrahedral_mesh_3<K>;
+using Restricted = weft::Restricted_delaunay_3<Oracle>;
+using Perturber = weft::Vertex_perturber_3<Restricted>;
+
+Oracle oracle_of(const Surface& surface, double angle = 60)
+{
+  return Oracle(weft::piecewise_smooth_complex(surface.points, surface.triangles, weft::Feature_options{angle}));
+}
+
+Criteria criteria_of(double size, double approximation)
+{
+  Criteria criteria;
+  criteria.size = size;
+  criteria.approximation = approximation;
+  criteria.topology = true;
+  return criteria;
+}
+
+/// The cells by their points: what doesn't hang on numbers.
+std::set<std::array<Point, 4>> cells_of(const Restricted& restricted)
+{
+  const Mesh mesh = weft::tetrahedral_mesh(restricted);
+  std::set<std::array<Point, 4>> cells;
+  for (const auto& c : mesh.cells) {
+    std::array<Point, 4> p = {mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]], mesh.points[c[3]]};
+    std::sort(p.begin(), p.end());
+    cells.insert(p);
+  }
+  return cells;
+}
+
+bool same(const Mesh& a, const Mesh& b)
+{
+  return a.points == b.points && a.cells == b.cells && a.facets == b.facets && a.edges == b.edges;
+}
+
+struct Tetrahedron
+{
+  Point v, a, b, c;
+};
+
+Tetrahedron random_tetrahedron(std::mt19937& random)
+{
+  const auto point = [&random] {
+    const double x = random() / 4294967296., y = random() / 4294967296., z = random() / 4294967296.;
+    return Point(x, y, z);
+  };
+  for (;;) {
+    const Point v = point(), a = point(), b = point(), c = point();
+    if (std::abs(CGAL::volume(v, a, b, c)) > 0.01) return {v, a, b, c};
+  }
+}
+
+template <class Function>
+Vector central_difference(const Point& v, const Function& f)
+{
+  const double h = 1e-5;
+  const auto along = [&](double x, double y, double z) {
+    return (f(v + Vector(x, y, z)) - f(v - Vector(x, y, z))) / (2 * h);
+  };
+  return Vector(along(h, 0, 0), along(0, h, 0), along(0, 0, h));
+}
+
+double length(const Vector& v)
+{
+  return std::sqrt(v.squared_length());
+}
+
+/// Whatever a perturbation did, and whenever it was stopped.
+void check_sound(const Restricted& restricted, const Oracle& oracle, const Criteria& criteria)
+{
+  CHECK(restricted.triangulation().is_valid());
+  weft::Validity_3 validity = weft::check_restricted_3(restricted);
+  const Mesh mesh = weft::tetrahedral_mesh(restricted);
+  validity += weft::validate_3(mesh);
+  validity += weft::check_criteria_3(mesh, criteria);
+  validity += weft::check_distances_3(mesh, oracle);
+  validity += weft::check_features_3(mesh, oracle.complex());
+  INFO(validity);
+  CHECK(validity.ok());
+}
+
+} // namespace
+
+TEST_CASE("gradients of volume and circumradius are what differences say")
+{
+  std::mt19937 random(1);
+  for (int k = 0; k < 200; ++k) {
+    const auto [v, a, b, c] = random_tetrahedron(random);
+    const Vector volume = weft::gradient_of_volume(v, a, b, c);
+    const Vector expected_volume = central_difference(
+        v, [&, &a = a, &b = b, &c = c](const Point& p) { return std::abs(CGAL::volume(p, a, b, c)); });
+    CHECK(length(volume - expected_volume) <= 1e-6 * length(volume));
+    const Vector radius = weft::gradient_of_squared_radius(v, a, b, c, CGAL::circumcenter(v, a, b, c));
+    const Vector expected_radius =
+        central_difference(v, [&, &a = a, &b = b, &c = c](const Point& p) { return CGAL::squared_radius(p, a, b, c); });
+    CHECK(length(radius - expected_radius) <= 1e-4 * (length(radius) + 1e-3));
+  }
+  const Point a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), flat(1, 1, 0);
+  CHECK(length(weft::gradient_of_volume(flat, a, b, c)) == 0);
+  CHECK(length(weft::gradient_of_squared_radius(flat, a, b, c, Point(0, 0, 1))) == 0);
+}
+
+TEST_CASE("extreme dihedral angles are those between the facets")
+{
+  std::mt19937 random(2);
+  for (int k = 0; k < 200; ++k) {
+    const auto [a, b, c, d] = random_tetrahedron(random);
+    const std::array<Point, 4> p = {a, b, c, d};
+    double smallest = -1, largest = 1;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) { // at the edge between the other two
+        std::size_t e[2], n = 0;
+        for (std::size_t m = 0; m < 4; ++m)
+          if (m != i && m != j) e[n++] = m;
+        const Vector edge = p[e[1]] - p[e[0]];
+        const auto across = [&](std::size_t m) {
+          const Vector u = p[m] - p[e[0]];
+          return u - (u * edge) / edge.squared_length() * edge;
+        };
+        const double cosine = across(i) * across(j) / (length(across(i)) * length(across(j)));
+        smallest = std::max(smallest, cosine);
+        largest = std::min(largest, cosine);
+      }
+    const bool positive = CGAL::orientation(a, b, c, d) == CGAL::POSITIVE;
+    const auto found =
+        positive ? weft::cosines_of_extreme_dihedrals(a, b, c, d) : weft::cosines_of_extreme_dihedrals(b, a, c, d);
+    CHECK(found.smallest == Approx(smallest).margin(1e-9));
+    CHECK(found.largest == Approx(largest).margin(1e-9));
+    const auto inverted =
+        positive ? weft::cosines_of_extreme_dihedrals(b, a, c, d) : weft::cosines_of_extreme_dihedrals(a, b, c, d);
+    CHECK(inverted.smallest == 1);
+    CHECK(inverted.largest == -1);
+  }
+}
+
+TEST_CASE("circumcenters of cells don't hang on the order of the vertices")
+{
+  const Oracle oracle = oracle_of(surfaces::torus(24, 12));
+  const auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05));
+  std::array<std::size_t, 4> order = {0, 1, 2, 3};
+  for (const auto c : result.mesh.triangulation().finite_cell_handles()) {
+    if (c->subdomain() == 0) continue;
+    const Point center = weft::circumcenter_of_cell_3<K>(c);
+    std::array<Point, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) p[order[i]] = c->vertex(static_cast<int>(i))->point();
+    std::next_permutation(order.begin(), order.end());
+    std::sort(p.begin(), p.end());
+    CHECK(center == weft::circumcenter_3<K>(p[0], p[1], p[2], p[3]));
+    CHECK(center == c->circumcenter());
+  }
+}
+
+TEST_CASE("vertices on creases may be taken away and put back or left out, and everything kept agrees")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(40)); // two closed creases
+  auto result = weft::make_mesh_3(oracle, criteria_of(0.4, 0.02));
+  Restricted& mesh = result.mesh;
+  REQUIRE(mesh.creases().edges().size() > 10);
+  std::mt19937 random(3);
+  weft::Perturbation_judge_3<Restricted> judge(mesh, criteria_of(0.4, 0.02));
+  for (int k = 0; k < 60; ++k) {
+    const int id = static_cast<int>(random() % mesh.vertices().size());
+    const auto v = mesh.vertices()[static_cast<std::size_t>(id)];
+    const auto location = v->location();
+    if (location.dimension == 0 || (k % 2 == 0 && location.dimension != 1)) continue;
+    const Point origin = v->point();
+    const std::size_t vertices = mesh.vertices().size();
+    const auto filling = mesh.take_away(v);
+    if (k % 3 == 0) {
+      mesh.leave_out(id, filling);
+      CHECK(mesh.vertices().size() == vertices - 1);
+    } else {
+      REQUIRE(judge.find_zone(origin, filling.front()));
+      mesh.put_back(judge.zone(), location, id, filling);
+      CHECK(mesh.vertices()[static_cast<std::size_t>(id)]->point() == origin);
+    }
+    for (std::size_t i = 0; i < mesh.vertices().size(); ++i) CHECK(mesh.vertices()[i]->id() == static_cast<int>(i));
+    for (const auto& e : mesh.creases().edges()) CHECK(mesh.creases().edge(e.target, e.source) == &e);
+    const auto agreement = weft::check_restricted_3(mesh);
+    INFO(agreement);
+    CHECK(agreement.ok());
+  }
+}
+
+TEST_CASE("moves, insertions and removals can be undone to the last cell")
+{
+  for (const Surface& surface : {surfaces::torus(48, 24), surfaces::cylinder(40), surfaces::cube()}) {
+    const Oracle oracle = oracle_of(surface);
+    const Criteria criteria = criteria_of(0.3, 0.02);
+    auto result = weft::make_mesh_3(oracle, criteria);
+    Restricted& mesh = result.mesh;
+    const auto before = cells_of(mesh);
+    std::vector<Point> points;
+    for (const auto v : mesh.vertices()) points.push_back(v->point());
+    weft::Perturb_options_3 options;
+    weft::Perturb_report_3 report;
+    Perturber perturber(mesh, criteria, options, report);
+    perturber.set_bound(std::cos(0.1));
+    perturber.set_kick_bound(std::cos(0.01));
+    perturber.begin();
+    std::mt19937 random(4);
+    for (int k = 0; k < 100; ++k) {
+      const int id = static_cast<int>(random() % mesh.vertices().size());
+      if (k % 4 == 0)
+        perturber.remove(id, std::cos(0.01));
+      else if (k % 4 == 1)
+        perturber.move(id, Perturber::Purpose::kick, 10);
+      else {
+        const auto c = mesh.vertices()[static_cast<std::size_t>(id)]->cell();
+        if (c->subdomain() != 0) perturber.insert_near(c, 20, std::cos(0.01), k % 4 == 2);
+      }
+    }
+    CHECK(report.removals > 0);
+    CHECK(report.insertions > 0);
+    CHECK(report.by_chance > 0);
+    CHECK(cells_of(mesh) != before);
+    perturber.undo();
+    CHECK(cells_of(mesh) == before);
+    REQUIRE(mesh.vertices().size() == points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) CHECK(mesh.vertices()[i]->point() == points[i]);
+    check_sound(mesh, oracle, criteria);
+  }
+}
+
+TEST_CASE("as far as it goes: the smallest angle never falls, and all that held holds")
+{
+  struct Case
+  {
+    Surface surface;
+    double size, approximation, reached;
+  };
+  for (const Case& c : {Case{surfaces::torus(48, 24), 0.3, 0.02, 28}, Case{surfaces::cylinder(40), 0.4, 0.02, 25},
+                        Case{surfaces::l_shape(), 0.3, 0, 28}}) {
+    const Oracle oracle = oracle_of(c.surface);
+    const Criteria criteria = criteria_of(c.size, c.approximation);
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+    REQUIRE(refined.ok());
+    const double refined_distance =
+        weft::hausdorff_3(weft::tetrahedral_mesh(mesh), oracle.complex().points, oracle.complex().triangles, 5000)
+            .two_sided();
+    weft::Perturb_options_3 options;
+    options.target = 90;
+    double last = 0;
+    int calls = 0;
+    options.go_on = [&, &mesh = mesh](double angle) {
+      CHECK(angle >= last);
+      last = angle;
+      if (calls % 20 == 0) {
+        CHECK(weft::measure_quality_3(weft::tetrahedral_mesh(mesh)).smallest_dihedral.degrees ==
+              Approx(angle).margin(1e-6));
+        CHECK(mesh.triangulation().is_valid());
+      }
+      return ++calls < 120; // not by time, so that the test is repeatable
+    };
+    const auto report = weft::perturb_slivers_3(mesh, criteria, options);
+    CHECK(report.after >= last);
+    CHECK(report.after > c.reached);
+    CHECK(report.kicks_kept <= report.kicks);
+    CHECK(mesh.vertices().size() == refined.vertices + report.insertions - report.removals);
+    check_sound(mesh, oracle, criteria);
+    const double distance =
+        weft::hausdorff_3(weft::tetrahedral_mesh(mesh), oracle.complex().points, oracle.complex().triangles, 5000)
+            .two_sided();
+    CHECK(distance <= std::max(1.1 * refined_distance, 2 * c.approximation) + 1e-12);
+  }
+}
+
+TEST_CASE("equal seeds give equal meshes, other seeds others")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(40));
+  const Criteria criteria = criteria_of(0.4, 0.02);
+  const auto run = [&](unsigned seed, weft::Perturb_directions_3 directions) {
+    auto result = weft::make_mesh_3(oracle, criteria);
+    weft::Perturb_options_3 options;
+    options.target = 90;
+    options.seed = seed;
+    options.directions = directions;
+    int calls = 0;
+    options.go_on = [&](double) { return ++calls < 40; };
+    const auto report = weft::perturb_slivers_3(result.mesh, criteria, options);
+    CHECK((directions == weft::Perturb_directions_3::random) == (report.by_radius + report.by_volume == 0));
+    CHECK(report.by_chance > 0);
+    check_sound(result.mesh, oracle, criteria);
+    return weft::tetrahedral_mesh(result.mesh);
+  };
+  using weft::Perturb_directions_3;
+  const Mesh first = run(0, Perturb_directions_3::combined);
+  CHECK(same(first, run(0, Perturb_directions_3::combined)));
+  CHECK(!same(first, run(1, Perturb_directions_3::combined)));
+  CHECK(!same(first, run(0, Perturb_directions_3::random)));
+}
+
+TEST_CASE("without time nothing changes, and with little the mesh is sound")
+{
+  const Oracle oracle = oracle_of(surfaces::torus(48, 24));
+  const Criteria criteria = criteria_of(0.3, 0.02);
+  for (const double limit : {0., 0.002, 0.02, 0.2}) {
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+    const auto before = cells_of(mesh);
+    weft::Perturb_options_3 options;
+    options.target = 90;
+    options.time_limit = limit;
+    const auto report = weft::perturb_slivers_3(mesh, criteria, options);
+    if (limit == 0) CHECK(cells_of(mesh) == before);
+    CHECK(report.after >= report.before);
+    check_sound(mesh, oracle, criteria);
+  }
+}
+
+TEST_CASE("a mesh that can't be improved ends the run by itself")
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  Criteria criteria;
+  criteria.size = 10; // the eight corners, none of which may move, and hardly anything else
+  auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+  weft::Perturb_options_3 options;
+  options.target = 90;
+  const auto report = weft::perturb_slivers_3(mesh, criteria, options);
+  CHECK(report.after >= report.before);
+  check_sound(mesh, oracle, criteria);
+}
