@@ -112,7 +112,8 @@ private:
     for (double bound = options_.first_bound; goes_on(); bound += options_.step) {
       mender_.set_bound(std::cos((std::min)(bound, options_.target) * degree));
       for (int pass = 0; pass < options_.most_passes && goes_on(); ++pass) {
-        const std::size_t mended = run_pass() + insert_vertices();
+        std::size_t mended = run_pass();
+        if (mended == 0 || pass >= passes_of_moves) mended += insert_vertices();
         look_around(0);
         if (mended == 0) break;
       }
@@ -194,6 +195,7 @@ private:
   }
 
   static constexpr double last_bound = 20; ///< degrees, up to where the whole mesh is worked on
+  static constexpr int passes_of_moves = 3; ///< before insertions
   static constexpr int insertion_trials = 200;
   static constexpr std::size_t patience = 200000; ///< trials
   // Smallest angle of elephant and dino after 8 s: batches of 10 and vertices / 400: 27.8, 25.6; of 30 and / 100: 28.7,
