@@ -411,7 +411,8 @@ TEST_CASE("an exception from the visitor goes to the caller")
 
 TEST_CASE("at acute dihedral angles a run ends by itself, with few vertices, and says where it gave up")
 {
-  for (const double angle : {70., 55., 47., 20., 5., 1.})
+  // Of cells between mirrored pairs beside a crease, the shape holds down to about 20 degrees.
+  for (const double angle : {70., 55., 47., 30., 25., 20., 5., 1.})
     for (const double sharp : {60., 180.}) // creases, or nothing marked
       for (const bool topology : {false, true}) {
         INFO("a wedge of " << angle << " degrees, sharp from " << sharp << ", topology " << topology);
@@ -425,7 +426,8 @@ TEST_CASE("at acute dihedral angles a run ends by itself, with few vertices, and
         const Mesh mesh = weft::tetrahedral_mesh(restricted);
         CHECK(weft::check_sizes_3(mesh, criteria.size).ok());
         CHECK(weft::check_distances_3(mesh, oracle).ok());
-        if (angle >= 55) CHECK(report.ok());
+        if (angle >= (sharp < 180 ? 25 : 47)) CHECK(report.ok());
+        if (angle >= 5) CHECK(report.manifold);
         if (report.ok()) {
           CHECK(weft::validate_3(mesh).ok());
           continue;

@@ -50,7 +50,12 @@ public:
         }
         const double angle = smaller_dihedral(complex, t, other->second);
         if (!(angle < largest_angle * degree)) continue;
-        edges_.push_back({complex.points[a], complex.points[b], reach_at(angle)});
+        const auto one = away_from(complex, t, a, b), two = away_from(complex, other->second, a, b);
+        edges_.push_back({complex.points[a],
+                          complex.points[b],
+                          unit(internal::minus(one, two)),
+                          {{one[0] + two[0], one[1] + two[1], one[2] + two[2]}},
+                          reach_at(angle)});
         largest_reach_ = (std::max)(largest_reach_, edges_.back().reach);
         boxes.emplace_back();
         for (const std::size_t v : {a, b})
@@ -65,33 +70,67 @@ public:
   /// circumscribed ball that is mixes them up.
   bool is_near(const Point& center, double radius) const
   {
-    if (edges_.empty()) return false;
-    const auto framed = boxes_.frame()(center.x(), center.y(), center.z());
-    const std::array<float, 3> from{
-        {static_cast<float>(framed[0]), static_cast<float>(framed[1]), static_cast<float>(framed[2])}};
-    const double error = (1 + (std::max)({std::abs(from[0]), std::abs(from[1]), std::abs(from[2])})) * 1e-6;
-    const double reach = radius * largest_reach_ * boxes_.frame().scale * (1 + 1e-6) + error;
-    if (!(reach * reach < std::numeric_limits<float>::max())) return true;
     bool found = false;
-    boxes_.visit_nearest(from, static_cast<float>(reach * reach * (1 + 1e-6)), [&](std::uint32_t block, float limit) {
-      for (std::uint32_t i = 4 * block; i < 4 * block + 4 && !found; ++i) {
-        const std::uint32_t item = boxes_.items()[i];
-        if (item == internal::Box_hierarchy_3::nothing) break;
-        const Edge& edge = edges_[item];
-        const Point x = internal::nearest_point_on_segment(center, edge.source, edge.target);
-        found = internal::norm(internal::minus(internal::xyz(x), internal::xyz(center))) <= radius * edge.reach;
-      }
-      return found ? -1.f : limit;
-    });
+    visit_near(center, radius, [&](const Edge&, const Point&, double) { return found = true; });
     return found;
+  }
+
+  /// The mirror image of `p` in the plane that bisects the acute edge nearest to `center`, if the ball mixes up the
+  /// sides of that edge, with its center on the one and `p` on the other. Returns whether that is so.
+  bool mirror(const Point& p, const Point& center, double radius, Point& image) const
+  {
+    double nearest = HUGE_VAL, height = 0;
+    internal::Xyz_3 normal{};
+    visit_near(center, radius, [&](const Edge& edge, const Point& foot, double distance) {
+      if (!(distance < nearest)) return false; // of equally near ones the first
+      nearest = distance;
+      normal = edge.normal;
+      const internal::Xyz_3 from = internal::difference(center, foot), to = internal::difference(p, foot);
+      height = internal::dot_product(to, normal);
+      if (!(internal::dot_product(from, normal) * height < 0 && internal::dot_product(from, edge.inward) > 0 &&
+            internal::dot_product(to, edge.inward) > 0))
+        height = 0;
+      return false;
+    });
+    if (height == 0) return false;
+    image = Point(p.x() - 2 * height * normal[0], p.y() - 2 * height * normal[1], p.z() - 2 * height * normal[2]);
+    return true;
   }
 
 private:
   struct Edge
   {
     Point source, target;
+    internal::Xyz_3 normal; ///< of the plane that bisects its angle
+    internal::Xyz_3 inward; ///< in that plane, away from the edge, between its sides
     double reach;
   };
+
+  /// Calls `visit(edge, its nearest point, distance)` for the edges that a ball mixes up the sides of, until it returns
+  /// true.
+  template <class Visit>
+  void visit_near(const Point& center, double radius, const Visit& visit) const
+  {
+    if (edges_.empty()) return;
+    const auto framed = boxes_.frame()(center.x(), center.y(), center.z());
+    const std::array<float, 3> from{
+        {static_cast<float>(framed[0]), static_cast<float>(framed[1]), static_cast<float>(framed[2])}};
+    const double error = (1 + (std::max)({std::abs(from[0]), std::abs(from[1]), std::abs(from[2])})) * 1e-6;
+    const double reach = radius * largest_reach_ * boxes_.frame().scale * (1 + 1e-6) + error;
+    const double largest = std::numeric_limits<float>::max();
+    const auto limit = static_cast<float>((std::min)(largest, reach * reach * (1 + 1e-6)));
+    boxes_.visit_nearest(from, limit, [&](std::uint32_t block, float bound) {
+      for (std::uint32_t i = 4 * block; i < 4 * block + 4; ++i) {
+        const std::uint32_t item = boxes_.items()[i];
+        if (item == internal::Box_hierarchy_3::nothing) break;
+        const Edge& edge = edges_[item];
+        const Point x = internal::nearest_point_on_segment(center, edge.source, edge.target);
+        const double distance = internal::norm(internal::difference(x, center));
+        if (distance <= radius * edge.reach && visit(edge, x, distance)) return -1.f;
+      }
+      return bound;
+    });
+  }
 
   static constexpr double degree = 3.14159265358979323846 / 180;
 
@@ -105,14 +144,32 @@ private:
     return std::atan2(sine, -cosine);
   }
 
+  /// Unit vector in a triangle away from its side ab.
+  static internal::Xyz_3 away_from(const Piecewise_smooth_complex_3<K>& complex, std::size_t t, std::size_t a,
+                                   std::size_t b)
+  {
+    const auto along = unit(internal::difference(complex.points[b], complex.points[a]));
+    auto away = internal::Xyz_3{};
+    for (const std::size_t v : complex.triangles[t])
+      if (v != a && v != b) away = internal::difference(complex.points[v], complex.points[a]);
+    const double shift = internal::dot_product(away, along);
+    for (std::size_t i = 0; i < 3; ++i) away[i] -= shift * along[i];
+    return unit(away);
+  }
+
+  static internal::Xyz_3 unit(const internal::Xyz_3& a)
+  {
+    const double length = internal::norm(a);
+    return length > 0 ? internal::Xyz_3{{a[0] / length, a[1] / length, a[2] / length}} : a;
+  }
+
   static internal::Xyz_3 normal(const Piecewise_smooth_complex_3<K>& complex, std::size_t t)
   {
     const auto& v = complex.triangles[t];
     const auto origin = internal::xyz(complex.points[v[0]]);
     const auto n = internal::cross_product(internal::minus(internal::xyz(complex.points[v[1]]), origin),
                                            internal::minus(internal::xyz(complex.points[v[2]]), origin));
-    const double length = internal::norm(n); // squared again below: tiny surfaces would underflow
-    return length > 0 ? internal::Xyz_3{{n[0] / length, n[1] / length, n[2] / length}} : n;
+    return unit(n); // squared again below: tiny surfaces would underflow
   }
 
   std::vector<Edge> edges_;

@@ -25,6 +25,7 @@
 #include <weft/spatial/Salient_features_3.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -181,6 +182,17 @@ public:
   /// Whether a ball mixes up the two sides of an edge of the surface whose dihedral angle is acute, inside or outside.
   /// See Acute_edges_3.h.
   bool is_at_acute_edge(const Point& center, double radius) const { return acute_edges_.is_near(center, radius); }
+
+  /// The mirror image of a point of the boundary on the other side of the acute edge nearest to the center of a ball,
+  /// if the ball mixes up the sides of that edge and its center lies on the other side. Returns whether that is so and
+  /// the boundary is there, up to a quarter of the distance between the sides.
+  bool mirror_at_acute_edge(const Point& p, const Point& center, double radius, Surface_hit_3<K>& image) const
+  {
+    Point mirrored;
+    if (!acute_edges_.mirror(p, center, radius, mirrored)) return false;
+    image = closest(mirrored);
+    return CGAL::squared_distance(image.point, mirrored) < 0.0625 * CGAL::squared_distance(p, mirrored);
+  }
 
   /// Vertices that every mesh has to keep.
   std::size_t number_of_corners() const { return complex_.features.size(); }

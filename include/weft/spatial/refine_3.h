@@ -49,6 +49,7 @@ public:
   using Cell_handle = typename Restricted::Cell_handle;
   using Vertex_handle = typename Restricted::Vertex_handle;
   using Zone = typename Restricted::Zone;
+  using Surface_hit = typename Restricted::Surface_hit;
   using Restricted_facet = typename Restricted::Restricted_facet;
   using Crease_edge = typename Restricted::Crease_edge;
   using Measure = Badness_measure_3<Restricted>;
@@ -89,6 +90,7 @@ public:
     batch_ = next_batch_number();
     Batch_3 result;
     result.bad += choose_edges();
+    choose_mirror_images();
     result.bad += choose_facets();
     if (used_ == 0) result.bad += choose_at_vertices();
     if (used_ == 0) result.bad += choose_cells();
@@ -115,6 +117,12 @@ private:
     bool is_free;    ///< only sizes and distances are at stake
     bool is_needed;  ///< see `is_left()`
     bool is_stuck;
+  };
+  enum class Choice
+  {
+    chosen,
+    later,     ///< its zone touches another's, or it is left as it is
+    impossible ///< at the size floor, or out of its own zone by rounding
   };
   struct Chosen
   {
@@ -145,6 +153,7 @@ private:
     const auto r = static_cast<std::size_t>(record);
     if (r >= serials_.size()) serials_.resize(r + 1, 0);
     ++serials_[r];
+    if (is_mixed_up(mesh_.facets()[r])) mixed_up_.push_back({record, serials_[r]});
     const Badness_3 badness = measure_.facet(mesh_.facets()[r]);
     if (badness.is_bad())
       bad_facets_.push_back({record, badness.ratio, serials_[r], (badness.reasons & (bad_topology | bad_disk)) == 0,
@@ -302,25 +311,83 @@ private:
 
   /// Smaller elements mend what is left at angles that aren't very acute, and only multiply it at others. To be called
   /// when nothing else can be done; returns whether it is worth going on: while little is left, or much less than
-  /// before.
+  /// before, and less than ever within a few steps. The same few can be left at any scale: facets at a corner with an
+  /// angle below that of the facet shape.
   bool lower_acute_floor()
   {
+    if (!with_cells_) return false; // the surface will be refined once more
     const auto most =
         (std::max)(static_cast<std::size_t>(0.7 * static_cast<double>(left_before_)), mesh_.vertices().size() / 50);
-    if (left_ == 0 || left_ > most || acute_floor_ < least_acute_floor) return false;
+    if (left_ < least_left_) {
+      least_left_ = left_;
+      steps_left_ = most_steps;
+    }
+    if (left_ == 0 || left_ > most || acute_floor_ < least_acute_floor || steps_left_-- == 0) return false;
     left_before_ = left_;
     acute_floor_ /= 2;
     return true;
   }
 
-  // ---- one Steiner point
-
-  enum class Choice
+  /// Whether a facet belongs to one side of an acute edge and has a vertex on the other, and which one.
+  int vertex_across(const Restricted_facet& f, Surface_hit& image) const
   {
-    chosen,
-    later,     ///< its zone touches another's, or it is left as it is
-    impossible ///< at the size floor, or out of its own zone by rounding
-  };
+    const double radius = std::sqrt(f.squared_radius);
+    for (int i = 1; i <= 3; ++i) {
+      const Vertex_handle v = Measure::vertex(f, i);
+      if (v->location().dimension == 2 && mesh_.oracle().mirror_at_acute_edge(v->point(), f.steiner, radius, image) &&
+          CGAL::to_double(CGAL::squared_distance(image.point, f.steiner)) < 0.99 * f.squared_radius)
+        return i;
+    }
+    return 0;
+  }
+
+  bool is_mixed_up(const Restricted_facet& f) const
+  {
+    Surface_hit image;
+    return vertex_across(f, image) != 0;
+  }
+
+  /// Beside acute edges, vertices come in mirrored pairs as far as they have to: then every point of a side has the
+  /// nearest vertex on its own side, however near the other is, and facets don't mix them up.
+  void choose_mirror_images()
+  {
+    std::size_t n = 0;
+    for (const auto& [record, serial] : mixed_up_) {
+      const auto r = static_cast<std::size_t>(record);
+      if (serials_[r] != serial || mesh_.facets()[r].cell == Cell_handle()) continue; // it is gone
+      if (choose_mirror_image(mesh_.facets()[r]) != Choice::impossible) mixed_up_[n++] = {record, serial};
+    }
+    mixed_up_.resize(n);
+  }
+
+  Choice choose_mirror_image(const Restricted_facet& f)
+  {
+    Surface_hit image;
+    const int across = vertex_across(f, image);
+    if (across == 0) return Choice::impossible;
+    const Zone_result result = find_near(image.point, f);
+    if (result != Zone_result::found) return failure(result);
+    const double apart = CGAL::to_double(CGAL::squared_distance(Measure::vertex(f, across)->point(), image.point));
+    // Pairs that all but exist: of 0.01, 0.25 and 0.6, it is 0.25 with which the dinosaur meets all criteria.
+    if (nearest_in_zone(image.point) < (std::max)(squared_floor_, 0.0625 * apart)) return Choice::impossible;
+    if (const Crease_edge* e = encroached_edge(chosen_[used_].zone)) {
+      ++encroachments_;
+      return choose(*e, false);
+    }
+    return accept({2, image.patch});
+  }
+
+  /// Squared distance to the nearest vertex of the zone found last.
+  double nearest_in_zone(const Point& p) const
+  {
+    double nearest = HUGE_VAL;
+    for (const Cell_handle c : chosen_[used_].zone.cells)
+      for (int i = 0; i < 4; ++i)
+        nearest = (std::min)(nearest, CGAL::to_double(CGAL::squared_distance(c->vertex(i)->point(), p)));
+    return nearest;
+  }
+
+  // ---- one Steiner point
 
   Choice choose(const Crease_edge& e, bool needed)
   {
@@ -534,6 +601,7 @@ private:
   static constexpr double topology_floor = 0.1;
 
   static constexpr double least_acute_floor = 1e-4;
+  static constexpr int most_steps = 3;
 
   static constexpr std::size_t choices = 20; // Tournois 2009, sec. 3.2.1.4
 
@@ -544,6 +612,8 @@ private:
   std::mt19937 random_;
   std::vector<Bad_cell> bad_cells_;
   std::vector<Bad_facet> bad_facets_;
+  std::vector<std::pair<int, unsigned>>
+      mixed_up_; ///< facets, by record and serial, that have a vertex across an acute edge
   std::vector<std::pair<double, const Crease_edge*>> bad_edges_;
   std::vector<unsigned> serials_; ///< by facet record, how often it was made
   std::vector<char> undecided_;   ///< by vertex, whether its topological disk has to be looked at
@@ -554,7 +624,9 @@ private:
   std::vector<Point> points_;
   std::size_t used_ = 0, room_ = 0;
   double acute_floor_ = 0.125; ///< part of the size down to which elements beside acute edges are refined
-  std::size_t left_ = 0;       ///< elements that the batch has left because of it
+  std::size_t least_left_ = std::size_t(1) << 40;  ///< smallest value of the following before a lowering
+  int steps_left_ = most_steps;                    ///< lowerings until that has to get smaller
+  std::size_t left_ = 0;                           ///< elements that the batch has left because of it
   std::size_t left_before_ = std::size_t(1) << 40; ///< the same before it was lowered last
   int batch_ = 0;
   std::size_t candidates_ = 0, encroachments_ = 0;
