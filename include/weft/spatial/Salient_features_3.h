@@ -32,19 +32,28 @@ class Salient_features_3
 public:
   using Point = typename K::Point_3;
 
+  /// Angles between the normals of two triangles, in degrees.
+  struct Bends
+  {
+    double fold;         ///< the smallest at a fold
+    double ridge;        ///< the smallest at a ridge
+    double sharp, acute; ///< between them nothing attracts. Along sharp edges that aren't creases, the restricted
+                         ///< Delaunay triangulation of points on the edge itself needn't be a surface at any scale;
+                         ///< beside acute ones mirrored pairs make it one, see Acute_edges_3.h.
+  };
+
   Salient_features_3() = default;
 
   /// O(n log n).
-  /// \param fold_angle,sharp_angle smallest and largest angle between the normals of two triangles at a fold, in
-  ///   degrees. Along sharper edges that aren't creases, the restricted Delaunay triangulation of points on the edge
-  ///   itself needn't be a surface at any scale, so they and their ends attract nothing.
-  Salient_features_3(const Piecewise_smooth_complex_3<K>& complex, double fold_angle, double sharp_angle)
+  Salient_features_3(const Piecewise_smooth_complex_3<K>& complex, const Bends& bends)
   {
+    const double degree = 3.14159265358979323846 / 180;
+    const Bends cosines{std::cos(bends.fold * degree), std::cos(bends.ridge * degree), std::cos(bends.sharp * degree),
+                        std::cos(bends.acute * degree)};
     std::vector<char> is_end(complex.points.size(), false);
     std::vector<int> patch(complex.points.size(), -1);
     std::vector<double> angle(complex.points.size(), 0);
-    const double degree = 3.14159265358979323846 / 180;
-    find_folds(complex, std::cos(fold_angle * degree), std::cos(sharp_angle * degree), is_end, patch, angle);
+    find_folds(complex, cosines, is_end, patch, angle);
     for (const auto& crease : complex.creases)
       for (const std::size_t v : crease.vertices) is_end[v] = false;
     for (const auto& feature : complex.features) is_end[feature.vertex] = false;
@@ -95,6 +104,17 @@ public:
     });
   }
 
+  /// Calls `visit(source, target, whether it attracts)` for every ridge on the patch that meets a ball, and perhaps for
+  /// some outside. Ridges are folds with large angles, and sharp edges that aren't creases.
+  template <class Visit>
+  void visit_ridges(const Point& center, double squared_radius, int patch, const Visit& visit) const
+  {
+    visit_near(ridge_boxes_, center, squared_radius, [&](std::uint32_t item) {
+      const Fold& ridge = ridges_[item];
+      if (ridge.patch == patch) visit(ridge.source, ridge.target, ridge.attracts);
+    });
+  }
+
 private:
   struct Vertex
   {
@@ -107,14 +127,15 @@ private:
     Point source, target;
     int patch;
     double angle; ///< between the normals, radians
+    bool attracts;
   };
 
-  void find_folds(const Piecewise_smooth_complex_3<K>& complex, double fold_cosine, double sharp_cosine,
-                  std::vector<char>& is_end, std::vector<int>& patch, std::vector<double>& angle)
+  void find_folds(const Piecewise_smooth_complex_3<K>& complex, const Bends& cosines, std::vector<char>& is_end,
+                  std::vector<int>& patch, std::vector<double>& angle)
   {
     std::vector<std::size_t> sharp_ends;
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> triangle_of_side;
-    std::vector<internal::Box_3> boxes;
+    std::vector<internal::Box_3> boxes, ridge_boxes;
     for (std::size_t t = 0; t < complex.triangles.size(); ++t)
       for (int i = 0; i < 3; ++i) {
         const std::size_t a = complex.triangles[t][i], b = complex.triangles[t][(i + 1) % 3];
@@ -125,20 +146,31 @@ private:
         }
         if (complex.patches[t] != complex.patches[other->second]) continue;
         const double cosine = cosine_of_bend(complex, t, other->second);
-        if (cosine < sharp_cosine) sharp_ends.insert(sharp_ends.end(), {a, b});
-        if (cosine < sharp_cosine || !(cosine < fold_cosine)) continue;
-        folds_.push_back(
-            {complex.points[a], complex.points[b], complex.patches[t], std::acos((std::max)(-1.0, cosine))});
-        boxes.emplace_back();
+        if (!(cosine < cosines.fold)) continue;
+        const bool attracts = cosine >= cosines.sharp || cosine < cosines.acute;
+        const Fold fold{complex.points[a], complex.points[b], complex.patches[t], std::acos((std::max)(-1.0, cosine)),
+                        attracts};
+        internal::Box_3 box;
+        for (const std::size_t v : {a, b}) box.add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
+        if (cosine < cosines.ridge) {
+          ridges_.push_back(fold);
+          ridge_boxes.push_back(box);
+        }
+        if (!attracts) {
+          sharp_ends.insert(sharp_ends.end(), {a, b});
+          continue;
+        }
+        folds_.push_back(fold);
+        boxes.push_back(box);
         for (const std::size_t v : {a, b}) {
-          boxes.back().add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
           is_end[v] = true;
-          angle[v] = (std::max)(angle[v], folds_.back().angle);
+          angle[v] = (std::max)(angle[v], fold.angle);
           patch[v] = complex.patches[t];
         }
       }
     for (const std::size_t v : sharp_ends) is_end[v] = false;
     fold_boxes_ = internal::Box_hierarchy_3(boxes);
+    ridge_boxes_ = internal::Box_hierarchy_3(ridge_boxes);
   }
 
   static internal::Xyz_3 normal(const Piecewise_smooth_complex_3<K>& complex, std::size_t t)
@@ -176,7 +208,8 @@ private:
 
   std::vector<Vertex> vertices_;
   std::vector<Fold> folds_;
-  internal::Box_hierarchy_3 vertex_boxes_, fold_boxes_;
+  std::vector<Fold> ridges_; ///< some of the folds, and what is sharper
+  internal::Box_hierarchy_3 vertex_boxes_, fold_boxes_, ridge_boxes_;
 };
 
 } // namespace weft
