@@ -70,6 +70,9 @@ public:
   const std::vector<Visit>& visits(std::size_t crease) const { return creases_[crease].visits; }
   const std::vector<Crease_edge>& edges() const { return edges_; }
 
+  /// How many of the edges are first met by a crease.
+  std::size_t number_of_edges(std::size_t crease) const { return edges_of_crease_[crease]; }
+
   /// The restricted edge between two vertices, or null.
   const Crease_edge* edge(Vertex_handle a, Vertex_handle b) const
   {
@@ -249,7 +252,10 @@ private:
   {
     const auto [found, is_new] = index_.emplace(key(a, b), edges_.size());
     const Point x = point_at(static_cast<std::size_t>(crease), position);
-    if (is_new) edges_.push_back({a, b, crease, x, crease, position, 0, false});
+    if (is_new) {
+      edges_.push_back({a, b, crease, x, crease, position, 0, false});
+      ++edges_of_crease_[static_cast<std::size_t>(crease)];
+    }
     Crease_edge& e = edges_[found->second];
     const double r = CGAL::to_double(CGAL::squared_distance(x, a->point()));
     if (r > e.squared_radius) {
@@ -265,6 +271,7 @@ private:
   std::vector<Crease> creases_;
   std::vector<Crease_edge> edges_;
   std::unordered_map<std::uint64_t, std::size_t> index_;
+  std::vector<std::size_t> edges_of_crease_;
   std::unordered_map<int, int> counts_; ///< visits by vertex
   mutable std::vector<Vertex_handle> neighbours_;
   mutable Vertex_handle loaded_; ///< whose neighbours those are

@@ -34,7 +34,8 @@ enum class Refusal_3
   cell,
   facet,
   crease,
-  disk
+  disk,
+  bare ///< a patch would lose its last facet, or a crease its last edge
 };
 
 /// \tparam Restricted a Restricted_delaunay_3.
@@ -66,6 +67,10 @@ public:
     for (const Crease_edge& e : mesh.creases().edges())
       crease_deviation_bound_ = (std::max)(crease_deviation_bound_, squared_deviation(e));
     visit_bad(all, [this](const Element& e, const Grade& grade) { tolerated_[e] = grade; });
+    for (int p = 0; p < mesh.oracle().number_of_patches(); ++p)
+      if (mesh.number_of_facets(p) > 0) patches_.push_back(p);
+    for (std::size_t c = 0; c < mesh.creases().number_of_creases(); ++c)
+      if (mesh.creases().number_of_edges(c) > 0) creases_.push_back(c);
   }
 
   /// Before anything is classified: whether cells would be good if they belong to the domain, which their circumcenters
@@ -81,8 +86,8 @@ public:
     return true;
   }
 
-  /// The first fault found in what the last change has made: none just when `new_offenders()` is empty, but sooner at
-  /// its end, and with crease edges looked up only where the change was.
+  /// The first fault found in what the last change has made. Unlike `new_offenders()` it ends at the first, looks
+  /// crease edges up only where the change was, and sees patches and creases that have lost everything.
   Refusal_3 refusal() const
   {
     for (const Cell_handle c : mesh_.new_cells())
@@ -93,7 +98,7 @@ public:
       if (has_bad_crease_edge(c)) return Refusal_3::crease;
     for (const int id : boundary_vertices(mesh_.new_cells()))
       if (offends({id, -1, -1, -1}, grade(vertex(id)))) return Refusal_3::disk;
-    return Refusal_3::none;
+    return has_bare_part() ? Refusal_3::bare : Refusal_3::none;
   }
   bool accepts_change() const { return refusal() == Refusal_3::none; }
 
@@ -182,6 +187,13 @@ private:
     if (!grade.is_bad()) return false;
     const auto found = tolerated_.find(e);
     return found == tolerated_.end() || grade.exceeds(found->second);
+  }
+
+  bool has_bare_part() const
+  {
+    return std::any_of(patches_.begin(), patches_.end(), [this](int p) { return mesh_.number_of_facets(p) == 0; }) ||
+           std::any_of(creases_.begin(), creases_.end(),
+                       [this](std::size_t c) { return mesh_.creases().number_of_edges(c) == 0; });
   }
 
   // ---- grades
@@ -294,6 +306,8 @@ private:
   const Restricted& mesh_;
   Badness_measure_3<Restricted> measure_;
   std::map<Element, Grade> tolerated_;
+  std::vector<int> patches_;                                                ///< that have facets
+  std::vector<std::size_t> creases_;                                        ///< that have edges
   double crease_deviation_bound_ = std::numeric_limits<double>::infinity(); ///< squared
   double deviation_bound_ = std::numeric_limits<double>::infinity();        ///< squared
 };

@@ -83,7 +83,8 @@ public:
         incidence_(oracle.complex()),
         threads_(threads),
         tr_(std::make_unique<Triangulation>()),
-        tracer_(*tr_)
+        tracer_(*tr_),
+        facets_of_patch_(static_cast<std::size_t>(oracle.number_of_patches()), 0)
   {
     insert_box();
     for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) {
@@ -110,6 +111,8 @@ public:
     const int record = c->facet_record(i);
     return record < 0 ? nullptr : &facets_[static_cast<std::size_t>(record)];
   }
+  /// How many restricted facets have their Steiner point on a patch.
+  int number_of_facets(int patch) const { return facets_of_patch_[static_cast<std::size_t>(patch)]; }
   /// Whether a restricted facet separates the domain from the outside.
   bool is_boundary(const Restricted_facet& f) const
   {
@@ -432,6 +435,7 @@ private:
     insert_box();
     facets_.clear();
     free_facets_.clear();
+    facets_of_patch_.assign(facets_of_patch_.size(), 0);
     Cell_handle hint;
     for (const std::size_t i : order) {
       const Vertex_handle v = tr_->insert(points[i], hint);
@@ -455,7 +459,9 @@ private:
     const Cell_handle n = c->neighbor(i);
     n->set_facet_record(n->index(c), -1);
     c->set_facet_record(i, -1);
-    facets_[static_cast<std::size_t>(record)].cell = Cell_handle();
+    Restricted_facet& f = facets_[static_cast<std::size_t>(record)];
+    f.cell = Cell_handle();
+    --facets_of_patch_[static_cast<std::size_t>(f.patch)];
     free_facets_.push_back(record);
   }
 
@@ -575,6 +581,7 @@ private:
         facets_[static_cast<std::size_t>(record)] = e.facet;
       }
       new_facets_.push_back(record);
+      ++facets_of_patch_[static_cast<std::size_t>(e.facet.patch)];
       const Cell_handle c = e.facet.cell, n = c->neighbor(e.facet.index);
       c->set_facet_record(e.facet.index, record);
       n->set_facet_record(n->index(c), record);
@@ -597,7 +604,7 @@ private:
   std::vector<Voronoi_edge> edges_;
   std::vector<int> edge_of_facet_; ///< by new cell and index, the Voronoi edge in `edges_`; -1 where none is needed
   std::vector<Restricted_facet> facets_;
-  std::vector<int> free_facets_, new_facets_;
+  std::vector<int> free_facets_, new_facets_, facets_of_patch_;
   Oracle_counts_3 counts_;
 };
 
