@@ -9,19 +9,17 @@
 
 #include <weft/spatial/circumcenter_3.h>
 #include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/Deviation_3.h>
 #include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/topological_disk_3.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/Kernel/global_functions.h>
-#include <CGAL/number_utils.h>
-#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <iterator>
 #include <map>
 #include <vector>
 
@@ -55,17 +53,17 @@ public:
   /// Elements that are bad now are tolerated from now on, as long as they don't get worse. Linear in the size of the
   /// mesh.
   Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
-      : mesh_(mesh), measure_(mesh, criteria, 1)
+      : mesh_(mesh), measure_(mesh, criteria, 1), deviation_(mesh)
   {
+    const Part all = everything();
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
     const double rounding = 1e-6 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
-    deviation_bound_ = crease_deviation_bound_ = rounding * rounding; // on flat patches all that is seen
-    const Part all = everything();
-    for (const int record : all.facets)
-      deviation_bound_ = (std::max)(deviation_bound_, squared_deviation(facet(record)));
-    deviation_bound_ *= closer * closer;
+    farthest_ = {rounding * rounding, rounding * rounding}; // all that is seen on flat patches
+    for (const int record : all.facets) farthest_.raise_to(deviation_.of(facet(record)));
+    farthest_.shrink(closer * closer);
+    farthest_of_crease_ = rounding * rounding;
     for (const Crease_edge& e : mesh.creases().edges())
-      crease_deviation_bound_ = (std::max)(crease_deviation_bound_, squared_deviation(e));
+      farthest_of_crease_ = (std::max)(farthest_of_crease_, deviation_.of(e));
     visit_bad(all, [this](const Element& e, const Grade& grade) { tolerated_[e] = grade; });
     for (int p = 0; p < mesh.oracle().number_of_patches(); ++p)
       if (mesh.number_of_facets(p) > 0) patches_.push_back(p);
@@ -112,6 +110,13 @@ public:
     return bad;
   }
 
+  /// To be called when a vertex number gets another meaning: what was tolerated at it isn't any more.
+  void forget(int id)
+  {
+    for (auto i = tolerated_.begin(); i != tolerated_.end();)
+      i = std::find(i->first.begin(), i->first.end(), id) == i->first.end() ? std::next(i) : tolerated_.erase(i);
+  }
+
   /// Whether an element exists and is bad.
   bool is_offending(const Element& e) const
   {
@@ -143,15 +148,16 @@ private:
   /// How bad an element is; zeros for a good one.
   struct Grade
   {
-    double badness = 0;   ///< ratio of its worst measure to the bound
-    double deviation = 0; ///< squared distance from the surface
-    int astray = 0;       ///< of a boundary facet, vertices that don't lie on the boundary
+    double badness = 0;           ///< ratio of its worst measure to the bound
+    double depth = 0, height = 0; ///< squared distances between it and the surface, see Deviation_3
+    int astray = 0;               ///< of a boundary facet, vertices that don't lie on the boundary
 
-    bool is_bad() const { return badness > 0 || deviation > 0 || astray > 0; }
+    bool is_bad() const { return badness > 0 || depth > 0 || height > 0 || astray > 0; }
     bool exceeds(const Grade& other) const
     {
       constexpr double slack = 1 + 1e-9;
-      return badness > slack * other.badness || deviation > slack * other.deviation || astray > other.astray;
+      return badness > slack * other.badness || depth > slack * other.depth || height > slack * other.height ||
+             astray > other.astray;
     }
   };
 
@@ -198,65 +204,28 @@ private:
 
   // ---- grades
 
-  static Grade graded(const Badness_3& badness, double squared_deviation, double bound)
-  {
-    return {badness.is_bad() ? badness.ratio : 0, squared_deviation > bound ? squared_deviation : 0, 0};
-  }
-
-  Grade grade(Cell_handle c) const { return graded(measure_.cell(c), 0, 0); }
+  Grade grade(Cell_handle c) const { return {ratio(measure_.cell(c)), 0, 0, 0}; }
 
   Grade grade(const Facet& f) const
   {
-    Grade grade = graded(measure_.facet(f), squared_deviation(f), deviation_bound_);
+    const Squared_deviation_3 d = deviation_.of(f);
+    Grade grade{ratio(measure_.facet(f)), beyond(d.depth, farthest_.depth), beyond(d.height, farthest_.height), 0};
     for (int i = 1; i < 4; ++i) grade.astray += f.cell->vertex((f.index + i) & 3)->location().dimension > 2;
     return grade;
   }
 
   Grade grade(const Crease_edge& e) const
   {
-    return graded(measure_.crease_edge(e), squared_deviation(e), crease_deviation_bound_);
+    return {ratio(measure_.crease_edge(e)), 0, beyond(deviation_.of(e), farthest_of_crease_), 0};
   }
 
-  Grade grade(Vertex_handle v) const { return {has_topological_disk(mesh_, v) ? 0. : 1., 0, 0}; }
-
-  /// Squared distance of a facet from the surface, sampled. The distance that refinement bounds is that along the
-  /// facet's axis.
-  double squared_deviation(const Facet& f) const
+  static double ratio(const Badness_3& badness) { return badness.is_bad() ? badness.ratio : 0; }
+  static double beyond(double squared_distance, double bound)
   {
-    const auto& a = f.cell->vertex((f.index + 1) & 3)->point();
-    const auto& b = f.cell->vertex((f.index + 2) & 3)->point();
-    const auto& c = f.cell->vertex((f.index + 3) & 3)->point();
-    double farthest = 0;
-    const auto ab = b - a, ac = c - a;
-    for (const auto& [s, t] : samples) {
-      const auto p = a + s * ab + t * ac;
-      farthest = (std::max)(farthest, CGAL::to_double(CGAL::squared_distance(p, mesh_.oracle().closest(p).point)));
-    }
-    return farthest;
+    return squared_distance > bound ? squared_distance : 0;
   }
 
-  /// Squared distance of the farthest corner of a crease from the edge that stands for it there: those corners to both
-  /// sides of its Steiner point whose projections lie between the ends of the edge.
-  double squared_deviation(const Crease_edge& e) const
-  {
-    const auto& points = mesh_.creases().points(static_cast<std::size_t>(e.steiner_crease));
-    const auto& a = e.source->point();
-    const auto ab = e.target->point() - a;
-    const double length = CGAL::to_double(ab.squared_length());
-    double farthest = 0;
-    const auto visit = [&](std::size_t i) {
-      const auto ap = points[i] - a;
-      const double t = CGAL::to_double(ap * ab) / length;
-      if (!(t > 0 && t < 1)) return false;
-      farthest = (std::max)(farthest, CGAL::to_double((ap - t * ab).squared_length()));
-      return true;
-    };
-    const auto middle = static_cast<std::size_t>(e.position);
-    for (std::size_t i = middle + 1; i < points.size() && visit(i);) ++i;
-    for (std::size_t i = middle + 1; i-- > 0 && visit(i);) {
-    }
-    return farthest;
-  }
+  Grade grade(Vertex_handle v) const { return {has_topological_disk(mesh_, v) ? 0. : 1., 0, 0, 0}; }
 
   bool has_bad_crease_edge(Cell_handle c) const
   {
@@ -296,20 +265,15 @@ private:
     return sorted({id(1), id(2), id(3), -1});
   }
 
-  /// Barycentric coordinates of where facets are held against the surface. With the centroid and the midpoints of
-  /// the edges alone, smoothing raises the distance of the dragknob by a third unseen; with these by 15 %.
-  static constexpr double samples[][2] = {{1. / 3, 1. / 3}, {.6, .2},   {.2, .6},  {.2, .2}, {.5, 0},
-                                          {0, .5},          {.5, .5},   {.25, 0},  {.75, 0}, {0, .25},
-                                          {0, .75},         {.25, .75}, {.75, .25}};
-  static constexpr double closer = 0.9; ///< for what lies between the samples
-
   const Restricted& mesh_;
   Badness_measure_3<Restricted> measure_;
   std::map<Element, Grade> tolerated_;
-  std::vector<int> patches_;                                                ///< that have facets
-  std::vector<std::size_t> creases_;                                        ///< that have edges
-  double crease_deviation_bound_ = std::numeric_limits<double>::infinity(); ///< squared
-  double deviation_bound_ = std::numeric_limits<double>::infinity();        ///< squared
+  std::vector<int> patches_;         ///< that have facets
+  std::vector<std::size_t> creases_; ///< that have edges
+  Deviation_3<Restricted> deviation_;
+  Squared_deviation_3 farthest_;        ///< that facets may be
+  double farthest_of_crease_ = 0;       ///< that crease edges may be, squared
+  static constexpr double closer = 0.9; ///< for what lies between the samples
 };
 
 } // namespace weft

@@ -59,13 +59,13 @@ struct Perturb_report_3
   std::size_t by_radius = 0, by_volume = 0, by_chance = 0; ///< moves that were kept, by direction
   std::size_t insertions = 0, removals = 0;                ///< of vertices, where no move helped
   /// Good moves not made, by what would have suffered.
-  std::size_t refused_cells = 0, refused_facets = 0, refused_distances = 0, refused_disks = 0, refused_creases = 0;
+  std::size_t refused_cells = 0, refused_facets = 0, refused_disks = 0, refused_creases = 0, refused_bare = 0;
   std::size_t kicks = 0, kicks_kept = 0; ///< of the neighbourhood of stuck cells
   double seconds = 0;
 
   std::size_t refused() const
   {
-    return refused_cells + refused_facets + refused_distances + refused_disks + refused_creases;
+    return refused_cells + refused_facets + refused_disks + refused_creases + refused_bare;
   }
 };
 

@@ -10,21 +10,17 @@
 #include <weft/spatial/circumcenter_3.h>
 #include <weft/spatial/Conflict_zone_3.h>
 #include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/Criteria_guard_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/Perturb_options_3.h>
-#include <weft/spatial/topological_disk_3.h>
 
-#include <CGAL/Bbox_3.h>
-#include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -51,16 +47,8 @@ public:
   static constexpr double no_good = 3; ///< more than any sliver measure
 
   Perturbation_judge_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
-      : mesh_(&mesh), measure_(mesh, criteria, 1)
-  {
-    const CGAL::Bbox_3 b = mesh.oracle().bbox();
-    deepest_ = highest_ = 1e-9 * (b.xmax() - b.xmin() + b.ymax() - b.ymin() + b.zmax() - b.zmin());
-    for (const auto& f : mesh.facets()) {
-      if (f.cell == Cell_handle()) continue;
-      deepest_ = (std::max)(deepest_, depth(f));
-      highest_ = (std::max)(highest_, height_above(f));
-    }
-  }
+      : mesh_(&mesh), measure_(mesh, criteria, 1), guard_(mesh, criteria)
+  {}
 
   static Dihedral_cosines_3 cosines(Cell_handle c)
   {
@@ -146,30 +134,27 @@ public:
     });
   }
 
-  /// Whether the boundary is still a surface around what changed last, and every element made satisfies the criteria.
+  /// Whether what changed last is as good as it was in all that refinement guarantees.
   bool is_acceptable(Perturb_report_3& report)
   {
-    for (const Cell_handle c : mesh_->new_cells())
-      if (c->subdomain() != 0 && measure_.cell(c).is_bad()) return ++report.refused_cells, false;
-    for (const int record : mesh_->new_facets())
-      if (measure_.facet(mesh_->facets()[static_cast<std::size_t>(record)]).is_bad())
-        return ++report.refused_facets, false;
-    for (const int record : mesh_->new_facets()) {
-      const auto& f = mesh_->facets()[static_cast<std::size_t>(record)];
-      if (depth(f) > deepest_ || height_above(f) > highest_) return ++report.refused_distances, false;
+    switch (guard_.refusal()) {
+    case Refusal_3::none:
+      return true;
+    case Refusal_3::cell:
+      return ++report.refused_cells, false;
+    case Refusal_3::facet:
+      return ++report.refused_facets, false;
+    case Refusal_3::crease:
+      return ++report.refused_creases, false;
+    case Refusal_3::disk:
+      return ++report.refused_disks, false;
+    default:
+      return ++report.refused_bare, false;
     }
-    collect_changed();
-    for (const int v : changed_)
-      if (!has_topological_disk(*mesh_, mesh_->vertices()[static_cast<std::size_t>(v)]))
-        return ++report.refused_disks, false;
-    const auto changed = [this](Vertex_handle v) {
-      return std::binary_search(changed_.begin(), changed_.end(), v->id());
-    };
-    for (const auto& e : mesh_->creases().edges())
-      if ((changed(e.source) || changed(e.target)) && measure_.crease_edge(e).is_bad())
-        return ++report.refused_creases, false;
-    return true;
   }
+
+  /// To be called when a vertex number gets another meaning.
+  void forget(int id) { guard_.forget(id); }
 
 private:
   static constexpr int no_batch = -2;
@@ -211,81 +196,10 @@ private:
     return true;
   }
 
-  /// How far from the surface a boundary facet gets: at its center, between there and its vertices, at the middles of
-  /// its edges. The approximation criterion is about one point a facet and alone lets the distance between mesh and
-  /// surface drift away: on the elephant by 38 % on the way to 32 degrees.
-  double depth(const typename Restricted::Restricted_facet& f) const
-  {
-    static constexpr double weights[7][3] = {{1. / 3, 1. / 3, 1. / 3},
-                                             {2. / 3, 1. / 6, 1. / 6},
-                                             {1. / 6, 2. / 3, 1. / 6},
-                                             {1. / 6, 1. / 6, 2. / 3},
-                                             {0.5, 0.5, 0},
-                                             {0, 0.5, 0.5},
-                                             {0.5, 0, 0.5}};
-    const Point &a = measure_.vertex(f, 1)->point(), &b = measure_.vertex(f, 2)->point(),
-                &c = measure_.vertex(f, 3)->point();
-    double deepest = 0;
-    for (const auto& w : weights) {
-      const Point p = CGAL::barycenter(a, w[0], b, w[1], c, w[2]);
-      deepest = (std::max)(deepest, CGAL::to_double(CGAL::squared_distance(p, mesh_->oracle().closest(p).point)));
-    }
-    return std::sqrt(deepest);
-  }
-
-  /// The other way round: how far from the boundary of the mesh salient points of the surface near a facet are.
-  double height_above(const typename Restricted::Restricted_facet& f) const
-  {
-    double highest = 0;
-    const double radius = 1.5 * 1.5 * f.squared_radius; // tips stick out of surface Delaunay balls
-    mesh_->oracle().visit_salient_points(f.steiner, radius, f.patch, [&](const Point& p) {
-      const double own = squared_distance(p, f);
-      if (own > highest) highest = (std::max)(highest, (std::min)(own, squared_distance_around(p, f)));
-    });
-    return std::sqrt(highest);
-  }
-
-  double squared_distance(const Point& p, const typename Restricted::Restricted_facet& f) const
-  {
-    const typename Kernel::Triangle_3 triangle(measure_.vertex(f, 1)->point(), measure_.vertex(f, 2)->point(),
-                                               measure_.vertex(f, 3)->point());
-    return CGAL::to_double(CGAL::squared_distance(p, triangle));
-  }
-
-  /// The same for all facets that have a vertex in common with f.
-  double squared_distance_around(const Point& p, const typename Restricted::Restricted_facet& f) const
-  {
-    double nearest = squared_distance(p, f);
-    thread_local std::vector<Cell_handle> cells;
-    cells.clear();
-    for (int i = 1; i <= 3; ++i)
-      mesh_->triangulation().incident_cells(measure_.vertex(f, i), std::back_inserter(cells));
-    for (const Cell_handle c : cells)
-      for (int i = 0; i < 4; ++i)
-        if (const auto* other = mesh_->facet(c, i)) nearest = (std::min)(nearest, squared_distance(p, *other));
-    return nearest;
-  }
-
-  /// Vertices on the boundary whose stars changed last.
-  void collect_changed()
-  {
-    changed_.clear();
-    for (const Cell_handle c : mesh_->new_cells())
-      for (int i = 0; i < 4; ++i) {
-        const Vertex_handle v = c->vertex(i);
-        if (v->location().dimension >= 0 && v->location().dimension <= 2) changed_.push_back(v->id());
-      }
-    std::sort(changed_.begin(), changed_.end());
-    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  }
-
   const Restricted* mesh_;
   Badness_measure_3<Restricted> measure_;
-  /// How far boundary facets may be from the surface and salient points of the surface from them, in the input's units:
-  /// as far as at the beginning.
-  double deepest_ = 0, highest_ = 0;
+  Criteria_guard_3<Restricted> guard_;
   std::vector<Filler> filling_;
-  std::vector<int> changed_; ///< ids
   Zone zone_;
   double floor_ = 1;
   int stamp_ = 1;

@@ -157,7 +157,6 @@ public:
     location_ = v->location();
     if (location_.dimension < 1) return false;
     load_star(v);
-    const std::vector<int> patches = patches_of_star();
     const Point origin = v->point();
     take(mesh_.take_away(v));
     if (judge_.judge_filling((std::max)(limit_, most)) == Judge::no_good) {
@@ -166,7 +165,9 @@ public:
       return false;
     }
     mesh_.leave_out(id, filling_);
-    if (judge_.is_acceptable(report_) && none_is_bare(patches)) {
+    if (judge_.is_acceptable(report_)) {
+      judge_.forget(id); // the number of another vertex now
+      judge_.forget(static_cast<int>(mesh_.vertices().size()));
       ++report_.removals;
       log_.push_back({Change::removal, id, origin, location_});
       return true;
@@ -231,31 +232,6 @@ private:
       if (x > bound_) add_gradients(c, c->index(v));
     }
     reach_ = std::sqrt(shortest);
-  }
-
-  /// On which patches the facets of the star lie.
-  std::vector<int> patches_of_star() const
-  {
-    std::vector<int> patches;
-    for (const Cell_handle c : cells_)
-      for (int i = 0; i < 4; ++i)
-        if (const auto* f = mesh_.facet(c, i)) patches.push_back(f->patch);
-    std::sort(patches.begin(), patches.end());
-    patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
-    return patches;
-  }
-
-  /// Whether what filled the place of a vertex has facets on all of its patches, and its crease still has edges.
-  bool none_is_bare(const std::vector<int>& patches) const
-  {
-    const auto has_facet = [this](int patch) {
-      return std::any_of(mesh_.new_facets().begin(), mesh_.new_facets().end(),
-                         [&](int record) { return mesh_.facets()[static_cast<std::size_t>(record)].patch == patch; });
-    };
-    const auto& edges = mesh_.creases().edges();
-    return std::all_of(patches.begin(), patches.end(), has_facet) &&
-           (location_.dimension != 1 ||
-            std::any_of(edges.begin(), edges.end(), [this](const auto& e) { return e.crease == location_.index; }));
   }
 
   void add_gradients(Cell_handle c, int i)

@@ -194,7 +194,7 @@ private:
     }
   }
 
-  static constexpr double last_bound = 20; ///< degrees, up to where the whole mesh is worked on
+  static constexpr double last_bound = 20;  ///< degrees, up to where the whole mesh is worked on
   static constexpr int passes_of_moves = 3; ///< before insertions
   static constexpr int insertion_trials = 200;
   static constexpr std::size_t patience = 200000; ///< trials
