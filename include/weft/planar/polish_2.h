@@ -9,6 +9,7 @@
 #ifndef WEFT_PLANAR_POLISH_2_H
 #define WEFT_PLANAR_POLISH_2_H
 
+#include <weft/planar/Failure_memory.h>
 #include <weft/planar/Triangulation_2.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -18,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -39,7 +41,11 @@ public:
   explicit Polisher_2(Mesh& mesh) : mesh_(mesh) {}
 
   /// To be called when the mesh has changed otherwise than by this polisher.
-  void reset() { hopeless_.assign(mesh_.vertices().size(), 0); }
+  void reset()
+  {
+    hopeless_.assign(mesh_.vertices().size(), 0);
+    failures_.reserve(mesh_.vertices().size());
+  }
 
   /// One pass over the triangles whose cost exceeds `bound`, worst first.
   /// \returns the number of vertices moved.
@@ -94,25 +100,33 @@ public:
   bool improve(Vertex_handle v)
   {
     hopeless_.resize(mesh_.vertices().size(), 0);
-    const int constraint = v->constraint();
-    if (constraint == fixed_vertex || hopeless_[v->id()] || !load_star(v)) return false;
+    if (v->constraint() == fixed_vertex || hopeless_[v->id()]) return false;
     hopeless_[v->id()] = 1;
-    const Point old = v->point();
-    double cost = cost_of_star(old, std::numeric_limits<double>::infinity());
-    const double before = cost;
-    if (cost < negligible) return false;
-    const Point best = constraint >= 0 ? search_on_constraint(v, cost) : search(v, cost);
-    if (best == old || !mesh_.relocator().move_within_star(v, best, flips_)) return false;
-    mesh_.update_target(v);
-    if (cost_around(v) <= before) {
+    const std::uint64_t key = key_of_star(v);
+    if (failures_.contains(key)) return false;
+    if (search_and_move(v)) {
       give_hope_around(v);
       return true;
     }
-    // The flips made it worse than had been promised: go back. Flips on the way back restore the old edges, up to
-    // cocircular ones.
-    mesh_.relocator().move_within_star(v, old, flips_);
-    mesh_.update_target(v);
+    failures_.add(key);
     return false;
+  }
+
+  /// What a search for a better place depends on: the vertex, its link, and what is constrained there.
+  std::uint64_t key_of_star(Vertex_handle v) const
+  {
+    std::uint64_t key = internal::scrambled(key_of_point(v) + static_cast<std::uint64_t>(v->constraint()));
+    auto face = mesh_.triangulation().incident_faces(v);
+    const auto done = face;
+    do {
+      const int i = face->index(v), a = Triangulation::ccw(i), b = Triangulation::cw(i);
+      const auto flags = static_cast<std::uint64_t>(face->is_in_domain()) + 2 * face->is_constrained(i) +
+                         4 * face->is_constrained(a) + 8 * face->is_constrained(b);
+      // A sum, since the face at which the circulation begins may change; each face by its first vertex, since the
+      // second is the next face's first.
+      key += internal::scrambled(key_of_point(face->vertex(a)) + flags);
+    } while (++face != done);
+    return key;
   }
 
   /// Sum of the costs of the triangles around a vertex.
@@ -150,6 +164,29 @@ public:
   }
 
 private:
+  static std::uint64_t key_of_point(Vertex_handle v)
+  {
+    return internal::key_of_point(CGAL::to_double(v->point().x()), CGAL::to_double(v->point().y()));
+  }
+
+  bool search_and_move(Vertex_handle v)
+  {
+    if (!load_star(v)) return false;
+    const Point old = v->point();
+    double cost = cost_of_star(old, std::numeric_limits<double>::infinity());
+    const double before = cost;
+    if (cost < negligible) return false;
+    const Point best = v->constraint() >= 0 ? search_on_constraint(v, cost) : search(v, cost);
+    if (best == old || !mesh_.relocator().move_within_star(v, best, flips_)) return false;
+    mesh_.update_target(v);
+    if (cost_around(v) <= before) return true;
+    // The flips made it worse than had been promised: go back. Flips on the way back restore the old edges, up to
+    // cocircular ones.
+    mesh_.relocator().move_within_star(v, old, flips_);
+    mesh_.update_target(v);
+    return false;
+  }
+
   // Cotangents of 50 and 37 degrees, where a small angle begins to cost and where it costs 1; of 80 and 94 degrees.
   static constexpr double cot_small = 0.839, cot_small_limit = 1.327, cot_large = 0.176, cot_large_limit = -0.070;
 
@@ -193,15 +230,19 @@ private:
     if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
     const double r2 = ax * ax + ay * ay, q2 = bx * bx + by * by,
                  p2 = (bx - ax) * (bx - ax) + (by - ay) * (by - ay); // squared lengths opposite p, q, r
-    const std::array<double, 3> cotangent{(q2 + r2 - p2) / doubled, (p2 + r2 - q2) / doubled, (p2 + q2 - r2) / doubled};
-    double small = 0, large = 0;
+    // Cotangents times `doubled`; only the extreme ones are divided. Dividing all of them took four times as long.
+    const std::array<double, 3> scaled{q2 + r2 - p2, p2 + r2 - q2, p2 + q2 - r2};
+    double highest = cot_small * doubled, lowest = cot_large * doubled; // of the smallest and the largest angle
     for (int i = 0; i < 3; ++i) {
       if (given[i]) continue;
-      small = (std::max)(small, (cotangent[i] - cot_small) / (cot_small_limit - cot_small));
-      large = (std::max)(large, (cotangent[i] - cot_large) / (cot_large_limit - cot_large));
+      highest = (std::max)(highest, scaled[i]);
+      lowest = (std::min)(lowest, scaled[i]);
     }
-    const double s2 = small * small, l2 = large * large, cost = (std::max)(s2 * s2 * s2 * s2, l2 * l2 * l2 * l2);
-    return cost + oversize((std::max)({p2, q2, r2}) / (size * size));
+    const double small = (highest / doubled - cot_small) * (1 / (cot_small_limit - cot_small)),
+                 large = (cot_large - lowest / doubled) * (1 / (cot_large - cot_large_limit));
+    const double worse = (std::max)(small, large), w2 = worse * worse, w4 = w2 * w2, cost = w4 * w4;
+    const double longest = (std::max)((std::max)(p2, q2), r2);
+    return longest > size * size ? cost + oversize(longest / (size * size)) : cost;
   }
 
   bool load_star(Vertex_handle v)
@@ -290,6 +331,7 @@ private:
   std::vector<Star_face> star_;
   std::vector<Chain_edge> chain_;
   std::vector<char> hopeless_; // by vertex id: tried in vain, and nothing near it has changed since
+  internal::Failure_memory failures_; // stars whose vertex found no better place
   std::size_t flips_ = 0;
 };
 

@@ -83,20 +83,23 @@ public:
   std::vector<Vertex_handle> with_neighbors(const std::vector<Vertex_handle>& vertices) const
   {
     std::vector<char> listed(mesh_.vertices().size(), 0);
-    std::vector<Vertex_handle> result;
-    const auto append = [&](Vertex_handle v) {
+    std::size_t count = 0;
+    const auto list = [&](Vertex_handle v) {
       if (mesh_.is_frame(v) || listed[v->id()]) return;
       listed[v->id()] = 1;
-      result.push_back(v);
+      ++count;
     };
     for (const Vertex_handle v : vertices) {
-      append(v);
+      list(v);
       auto neighbor = mesh_.triangulation().incident_vertices(v);
       const auto done = neighbor;
-      do append(neighbor);
+      do list(neighbor);
       while (++neighbor != done);
     }
-    std::sort(result.begin(), result.end(), [](Vertex_handle a, Vertex_handle b) { return a->id() < b->id(); });
+    std::vector<Vertex_handle> result;
+    result.reserve(count);
+    for (std::size_t i = 0; i < listed.size(); ++i)
+      if (listed[i]) result.push_back(mesh_.vertices()[i]);
     return result;
   }
 
