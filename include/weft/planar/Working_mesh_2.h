@@ -13,6 +13,7 @@
 #include <weft/errors.h>
 #include <weft/planar/mark_domain.h>
 #include <weft/planar/remove_hull_vertex_2.h>
+#include <weft/planar/Size_memory.h>
 #include <weft/planar/Triangulation_2.h>
 #include <weft/relocate/Relocator_2.h>
 #include <weft/sizing/Lipschitz_sizing_2.h>
@@ -110,23 +111,27 @@ public:
   /// Numbers vertices and lists faces anew, in the order of the triangulation; to be called after insertions.
   void renumber()
   {
+    const std::vector<Vertex_handle> old_vertices = std::move(vertices_);
+    const std::vector<double> old_sizes = std::move(sizes_);
+    const std::vector<Point> old_asked_at = std::move(asked_at_);
     vertices_.clear();
+    sizes_.clear();
+    asked_at_.clear();
     faces_.clear();
-    int id = 0;
-    for (const Vertex_handle v : cdt_.finite_vertex_handles())
-      if (!is_frame(v)) {
-        v->set_id(id++);
-        vertices_.push_back(v);
-      }
+    for (const Vertex_handle v : cdt_.finite_vertex_handles()) {
+      if (is_frame(v)) continue;
+      const int old = v->id();
+      const bool is_old = 0 <= old && old < static_cast<int>(old_vertices.size()) && old_vertices[old] == v;
+      v->set_id(static_cast<int>(vertices_.size()));
+      vertices_.push_back(v);
+      sizes_.push_back(is_old ? old_sizes[old] : target(v->point()));
+      asked_at_.push_back(is_old ? old_asked_at[old] : v->point());
+    }
+    int id = static_cast<int>(vertices_.size());
     for (const Vertex_handle v : frame_) v->set_id(id++);
     for (const Face_handle f : cdt_.finite_face_handles())
       if (f->is_in_domain()) faces_.push_back(f);
-    sizes_.resize(vertices_.size());
-    asked_at_.resize(vertices_.size());
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      asked_at_[i] = vertices_[i]->point();
-      sizes_[i] = target(asked_at_[i]);
-    }
+    if (!uniform) known_sizes_.reserve(2 * faces_.size());
   }
 
   /// Numbers a vertex that was inserted since the last `renumber()`, at a place of its own or that of a removed one.
@@ -151,9 +156,26 @@ public:
   /// \throws Option_error if the sizing field returns anything but a positive finite number.
   double size(const Point& p) const
   {
-    const double s = CGAL::to_double(sizing_(p));
-    if (!(s > 0) || !std::isfinite(s)) throw_bad_size(p, s);
-    return s;
+    const auto ask = [&] {
+      const double s = CGAL::to_double(sizing_(p));
+      if (!(s > 0) || !std::isfinite(s)) throw_bad_size(p, s);
+      return s;
+    };
+    if constexpr (uniform)
+      return ask();
+    else
+      return known_sizes_.get(CGAL::to_double(p.x()), CGAL::to_double(p.y()), ask);
+  }
+
+  /// The same in the middle of a face.
+  double size(Face_handle f) const
+  {
+    double x = 0, y = 0;
+    for (int i = 0; i < 3; ++i) {
+      x += CGAL::to_double(f->vertex(i)->point().x());
+      y += CGAL::to_double(f->vertex(i)->point().y());
+    }
+    return size(Point(x / 3, y / 3));
   }
 
   /// Edge length to aim at: the sizing field, or less near details of the input, see `set_grading()`.
@@ -183,18 +205,20 @@ public:
 
   using Grading = Lipschitz_sizing_2<typename Cdt::Geom_traits>;
   /// Makes targets smaller than the sizing field where `grading` is.
-  void set_grading(Grading grading) { grading_.emplace(std::move(grading)); }
+  void set_grading(Grading grading)
+  {
+    grading_.emplace(std::move(grading));
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      asked_at_[i] = vertices_[i]->point();
+      sizes_[i] = target(asked_at_[i]);
+    }
+  }
 
   /// Longest edge of a face over the size at its centroid.
   double ratio(Face_handle f) const
   {
-    double longest = 0, x = 0, y = 0;
-    for (int i = 0; i < 3; ++i) {
-      longest = (std::max)(longest, squared_length(f, i));
-      x += CGAL::to_double(f->vertex(i)->point().x());
-      y += CGAL::to_double(f->vertex(i)->point().y());
-    }
-    return std::sqrt(longest) / size(Point(x / 3, y / 3));
+    const double longest = (std::max)({squared_length(f, 0), squared_length(f, 1), squared_length(f, 2)});
+    return std::sqrt(longest) / size(f);
   }
 
   /// Length of edge i of a face over the size at its midpoint.
@@ -467,6 +491,7 @@ private:
   std::vector<Face_handle> faces_;
   std::vector<double> sizes_;   // targets at vertices
   std::vector<Point> asked_at_; // where they were evaluated
+  mutable internal::Size_memory known_sizes_;
   std::optional<Grading> grading_;
   std::vector<Chain> chains_;
   std::map<Ends, int> chain_of_ends_; // only looked up, never iterated: addresses decide nothing

@@ -89,7 +89,6 @@ void set_grading_2(Mesh& mesh, const Mesh& sampled)
   const auto details = find_input_details_2(sampled, detail_edge, detail_width);
   if (details.points.empty()) return;
   mesh.set_grading(typename Mesh::Grading(details.points, details.sizes, detail_growth));
-  mesh.renumber();
 }
 
 /// Does so for a Working_mesh_2 whose constraints are bare. They are sampled in a copy.

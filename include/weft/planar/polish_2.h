@@ -93,7 +93,7 @@ public:
   double cost(Face_handle f) const
   {
     return cost(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0),
-                size_at_centroid(f));
+                mesh_.size(f));
   }
 
   /// Tries to move one vertex to a better place; flips afterwards. Returns whether it moved.
@@ -208,11 +208,6 @@ private:
 
   static double oversize(double squared_ratio) { return squared_ratio > 1 ? oversize_cost * squared_ratio : 0; }
 
-  double size_at_centroid(Face_handle f) const
-  {
-    return mesh_.size(CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()));
-  }
-
   /// Which angles of the face, from corner i on, lie between constraints.
   static std::array<bool, 3> given_angles(Face_handle f, int i)
   {
@@ -259,7 +254,7 @@ private:
       }
       if (face->is_in_domain())
         star_.push_back({face->vertex(Triangulation::ccw(i))->point(), face->vertex(Triangulation::cw(i))->point(),
-                         given_angles(face, i), size_at_centroid(face)});
+                         given_angles(face, i), mesh_.size(face)});
     } while (++face != done);
     return !star_.empty();
   }
