@@ -39,6 +39,12 @@ public:
   /// Below this largest ratio a batch is small and its elements are independent.
   static constexpr double near_goal = 1.6;
 
+  /// While the largest ratio is above, elements up to this ratio are left to the small batches that follow. With 1
+  /// a single long edge has all elements refined that are hardly too long, too, which relaxation and polishing would
+  /// have shortened: on the local feature size of a fractal shore 11126 Steiner points instead of 9259. With 1.3 there
+  /// are 9157, for a tenth more time.
+  static constexpr double least_target = 1.2;
+
   /// \param min_angle smallest angle asked for, in degrees; 0 for none.
   Batch_refiner_2(Mesh& mesh, double min_angle) : mesh_(mesh) { set_min_angle(min_angle); }
 
@@ -95,7 +101,7 @@ public:
   std::vector<Vertex_handle> refine(std::size_t most)
   {
     const bool near = largest_ratio_ < near_goal;
-    choose(near ? 1 : (std::max)(largest_ratio_ / std::sqrt(3.0), 1.0), near, most);
+    choose(near ? 1 : (std::max)(largest_ratio_ / std::sqrt(3.0), least_target), near, most);
     std::vector<Vertex_handle> inserted;
     for (const Choice& c : chosen_)
       if (const Vertex_handle v = insert(c, near); v != Vertex_handle()) inserted.push_back(v);
