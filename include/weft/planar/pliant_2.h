@@ -35,7 +35,7 @@ public:
 
   Pliant_improver_2(Mesh& mesh, Polisher_2<Mesh>& polisher) : mesh_(mesh), polisher_(polisher) {}
 
-  /// Allows so many more insertions and trials. Without a budget, a shore of fractal detail takes half as many points
+  /// Allows so many more insertions than removals, and so many trials. Without a budget, a shore of fractal detail takes half as many points
   /// again as greedy refinement, for angles that nobody asked for.
   void set_budget(std::size_t insertions, std::size_t trials)
   {
@@ -100,7 +100,10 @@ private:
     const std::uint64_t key = key_of_surroundings(f);
     if (failures_.contains(key)) return false;
     for (int i = 0; i < 3; ++i)
-      if (find(t, f) && mesh_.vertices()[t[i]]->constraint() != fixed_vertex && try_removal(f, t[i])) return true;
+      if (find(t, f) && mesh_.vertices()[t[i]]->constraint() != fixed_vertex && try_removal(f, t[i])) {
+        ++insertions_left_;
+        return true;
+      }
     for (int k = 0; k < 4 && insertions_left_ > 0; ++k)
       if (find(t, f) && try_insertion(f, k)) {
         --insertions_left_;

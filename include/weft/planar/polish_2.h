@@ -88,8 +88,8 @@ public:
   std::size_t flips() const { return flips_; }
 
   /// What a triangle costs: 0 while its angles lie within [50, 80] degrees, 1 at 37 or 94 degrees, without bound
-  /// towards 0 and 180; far more with an edge that is too long. Angles between two constraints don't count, they can't
-  /// be mended.
+  /// towards 0 and 180; far more with an edge that is too long. Small angles between two constraints don't count, they
+  /// can't be mended; large ones do, a vertex more can divide them.
   double cost(Face_handle f) const
   {
     return cost(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0),
@@ -229,8 +229,7 @@ private:
     const std::array<double, 3> scaled{q2 + r2 - p2, p2 + r2 - q2, p2 + q2 - r2};
     double highest = cot_small * doubled, lowest = cot_large * doubled; // of the smallest and the largest angle
     for (int i = 0; i < 3; ++i) {
-      if (given[i]) continue;
-      highest = (std::max)(highest, scaled[i]);
+      if (!given[i]) highest = (std::max)(highest, scaled[i]);
       lowest = (std::min)(lowest, scaled[i]);
     }
     const double small = (highest / doubled - cot_small) * (1 / (cot_small_limit - cot_small)),
