@@ -35,8 +35,8 @@ public:
 
   Pliant_improver_2(Mesh& mesh, Polisher_2<Mesh>& polisher) : mesh_(mesh), polisher_(polisher) {}
 
-  /// Allows so many more insertions than removals, and so many trials. Without a budget, a shore of fractal detail takes half as many points
-  /// again as greedy refinement, for angles that nobody asked for.
+  /// Allows so many more insertions than removals, and so many trials. Without a budget, a shore of fractal detail
+  /// takes half as many points again as greedy refinement, for angles that nobody asked for.
   void set_budget(std::size_t insertions, std::size_t trials)
   {
     insertions_left_ = insertions;
