@@ -121,7 +121,8 @@ private:
     const Xy center = circumcenter(p);
     const double longest = (std::max)({internal::squared_distance(p[0], p[1]), internal::squared_distance(p[1], p[2]),
                                        internal::squared_distance(p[2], p[0])});
-    const std::array<double, 3> s{mesh_.target(f->vertex(0)), mesh_.target(f->vertex(1)), mesh_.target(f->vertex(2))};
+    std::array<double, 3> s{unit_, unit_, unit_};
+    if (!mesh_.is_uniform()) s = {mesh_.target(f->vertex(0)), mesh_.target(f->vertex(1)), mesh_.target(f->vertex(2))};
     const double mean = (s[0] + s[1] + s[2]) / 3;
     const double weight = feedback(longest / (mean * mean)) * graded_density(mean / unit_);
     const Blind* blind = f->id() >= 0 ? &blind_[f->id()] : nullptr;
