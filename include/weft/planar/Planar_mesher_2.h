@@ -7,10 +7,10 @@
 #ifndef WEFT_PLANAR_PLANAR_MESHER_2_H
 #define WEFT_PLANAR_PLANAR_MESHER_2_H
 
-#include <weft/internal/timer.h>
 #include <weft/options.h>
 #include <weft/planar/input_grading_2.h>
 #include <weft/planar/least_vertices_2.h>
+#include <weft/planar/Mesh_run_2.h>
 #include <weft/planar/pliant_2.h>
 #include <weft/planar/polish_2.h>
 #include <weft/planar/quality_2.h>
@@ -46,6 +46,7 @@ public:
       : mesh_(cdt, sizing, keep_vertices ? Mesh::Given::relaxable : Mesh::Given::input),
         sizing_(sizing),
         options_(options),
+        run_(options),
         refiner_(mesh_, options.min_angle),
         relaxer_(mesh_, options.size_feedback, options.threads),
         polisher_(mesh_),
@@ -103,37 +104,13 @@ private:
   template <class Function>
   void timed(Stage stage, const Function& function)
   {
-    stage_ = stage;
-    const double start = timer_.seconds();
-    if (!stopped_) function();
-    const double seconds = timer_.seconds() - start;
-    for (auto& [n, s] : report_.stage_seconds)
-      if (n == name(stage)) {
-        s += seconds;
-        return;
-      }
-    report_.stage_seconds.emplace_back(name(stage), seconds);
+    run_.timed(stage, report_, function);
   }
 
-  /// Whether to go on; notes why not.
-  bool go_on(std::size_t vertices)
-  {
-    if (stopped_) return false;
-    if (timer_.seconds() > options_.time_limit)
-      stop(Stop_reason::time_limit);
-    else if (options_.visitor && !options_.visitor({stage_, vertices, bad_, timer_.seconds()}))
-      stop(Stop_reason::cancelled);
-    return !stopped_;
-  }
-
+  bool go_on(std::size_t vertices) { return run_.go_on(vertices, bad_, report_); }
   bool go_on() { return go_on(mesh_.vertices().size()); }
-
-  void stop(Stop_reason reason)
-  {
-    if (stopped_) return;
-    stopped_ = true;
-    report_.stop_reason = reason;
-  }
+  void stop(Stop_reason reason) { run_.stop(reason, report_); }
+  bool is_stopped() const { return run_.is_stopped(); }
 
   /// Stops a run that can't end within its budget.
   void check_budget()
@@ -188,7 +165,7 @@ private:
     pliant_.set_budget(least_insertions + n / 50, 20 * least_insertions + n / 2);
     for (int round = 0; round < most_rounds; ++round) {
       refine_and_polish(round == 0);
-      if (stopped_) break;
+      if (is_stopped()) break;
       bad_ = refiner_.find_bad();
       if (bad_ > 0 || begin_mending()) continue;
       refiner_.set_min_angle(options_.min_angle);
@@ -238,7 +215,7 @@ private:
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     int fruitless = 0; // batches since there have been so few
     bool polished = false;
-    while (!stopped_) {
+    while (!is_stopped()) {
       bad_ = refiner_.find_bad();
       if (bad_ == 0 || !go_on()) return;
       if (options_.polish && refiner_.largest_ratio() < Batch_refiner_2<Mesh>::near_goal) {
@@ -250,7 +227,7 @@ private:
         timed(Stage::polishing, [this] { polish(); });
         continue;
       }
-      if (bad_ == 0 || stopped_) return;
+      if (bad_ == 0 || is_stopped()) return;
       fruitless = bad_ < fewest ? 0 : fruitless + 1;
       fewest = (std::min)(fewest, bad_);
       if (is_stuck(fruitless)) {
@@ -331,16 +308,15 @@ private:
   Mesh mesh_;
   const Sizing& sizing_;
   const Mesh_options_2& options_;
-  internal::Timer timer_;
+  internal::Mesh_run_2 run_;
   Batch_refiner_2<Mesh> refiner_;
   Relaxer_2<Mesh> relaxer_;
   Polisher_2<Mesh> polisher_;
   Pliant_improver_2<Mesh> pliant_;
   Mesh_report_2 report_;
-  Stage stage_ = Stage::constraints;
   std::size_t bad_ = 0;
   std::size_t most_mended_vertices_ = 0;
-  bool is_mending_ = false, stopped_ = false;
+  bool is_mending_ = false;
 };
 
 } // namespace weft
