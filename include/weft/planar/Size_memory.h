@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The last values of a sizing field, by the exact place where it was asked. Meshing asks again and again in the middle
-// of triangles that haven't changed: on the local feature size of a fractal shore nine questions in ten are old ones,
-// and an answer from here takes a tenth of the time. Nothing is interpolated, so no value depends on the memory.
+// of triangles that haven't changed: on the local feature size of a fractal shore two questions in three are old ones.
+// Nothing is interpolated, so no value depends on the memory.
 // Not meant for users.
 
 #ifndef WEFT_PLANAR_SIZE_MEMORY_H
