@@ -91,8 +91,8 @@ private:
     return mesh_.triangulation().is_face(v[0], v[1], v[2], f);
   }
 
-  /// Tries the changes at a triangle, those that save a vertex first, unless all of it has been tried before: that is
-  /// so for half of the triangles on a fractal shore. Returns whether a change was kept.
+  /// Tries the changes at a triangle, those that save a vertex first, unless all of it has been tried before: half
+  /// of the removals tried on a fractal shore were repetitions. Returns whether a change was kept.
   bool mend(const Triangle& t)
   {
     Face_handle f;

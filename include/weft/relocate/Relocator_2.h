@@ -267,7 +267,7 @@ private:
   }
 
   /// Certain that an edge between two finite faces is locally Delaunay, since both angles opposite to it are acute;
-  /// that decides most edges of a good mesh for a third of the price of the exact test.
+  /// that decides most edges of a good mesh for less than the exact test costs.
   bool is_surely_delaunay(Face_handle f, int i) const
   {
     if constexpr (std::is_same_v<typename Cdt::Geom_traits::FT, double>) {
