@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far the boundary of a mesh and the surface are from each other, element by element. The approximation criterion
+// is about one point of a facet or crease edge, and alone lets that distance drift away while vertices move: on the
+// elephant by 38 %, on the dragknob by a half.
+
+#ifndef WEFT_SPATIAL_DEVIATION_3_H
+#define WEFT_SPATIAL_DEVIATION_3_H
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+namespace weft {
+
+/// Squared distances between a facet and the surface.
+struct Squared_deviation_3
+{
+  double depth = 0;  ///< from the facet to the surface
+  double height = 0; ///< from salient points of the surface to the boundary of the mesh
+
+  void raise_to(const Squared_deviation_3& other)
+  {
+    depth = (std::max)(depth, other.depth);
+    height = (std::max)(height, other.height);
+  }
+  void shrink(double factor)
+  {
+    depth *= factor;
+    height *= factor;
+  }
+};
+
+/// Measures boundary facets and crease edges against the surface.
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Deviation_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Facet = typename Restricted::Restricted_facet;
+  using Crease_edge = typename Restricted::Crease_edge;
+
+  /// \param mesh has to live as long as this object.
+  explicit Deviation_3(const Restricted& mesh) : mesh_(&mesh) {}
+
+  Squared_deviation_3 of(const Facet& f) const { return {depth(f), height(f)}; }
+
+  /// Squared distance of the farthest corner of a crease from the edge that stands for it there: those corners to both
+  /// sides of its Steiner point whose projections lie between the ends of the edge.
+  double of(const Crease_edge& e) const
+  {
+    const auto& points = mesh_->creases().points(static_cast<std::size_t>(e.steiner_crease));
+    const auto& a = e.source->point();
+    const auto ab = e.target->point() - a;
+    const double length = CGAL::to_double(ab.squared_length());
+    double farthest = 0;
+    const auto visit = [&](std::size_t i) {
+      const auto ap = points[i] - a;
+      const double t = CGAL::to_double(ap * ab) / length;
+      if (!(t > 0 && t < 1)) return false;
+      farthest = (std::max)(farthest, CGAL::to_double((ap - t * ab).squared_length()));
+      return true;
+    };
+    const auto middle = static_cast<std::size_t>(e.position);
+    for (std::size_t i = middle + 1; i < points.size() && visit(i);) ++i;
+    for (std::size_t i = middle + 1; i-- > 0 && visit(i);) {
+    }
+    return farthest;
+  }
+
+private:
+  /// At a few points, the farthest from the surface.
+  double depth(const Facet& f) const
+  {
+    const Point &a = corner(f, 1), &b = corner(f, 2), &c = corner(f, 3);
+    const auto ab = b - a, ac = c - a;
+    double deepest = 0;
+    for (const auto& [s, t] : samples) {
+      const Point p = a + s * ab + t * ac;
+      deepest = (std::max)(deepest, CGAL::to_double(CGAL::squared_distance(p, mesh_->oracle().closest(p).point)));
+    }
+    return deepest;
+  }
+
+  /// The other way round: of the salient points of the surface near the facet, the farthest from the facet and from
+  /// those around it.
+  double height(const Facet& f) const
+  {
+    double highest = 0;
+    const double squared_reach = 1.5 * 1.5 * f.squared_radius; // tips stick out of surface Delaunay balls
+    mesh_->oracle().visit_salient_points(f.steiner, squared_reach, f.patch, [&](const Point& p) {
+      const double own = squared_distance(p, f);
+      if (own > highest) highest = (std::max)(highest, (std::min)(own, squared_distance_around(p, f)));
+    });
+    return highest;
+  }
+
+  static const Point& corner(const Facet& f, int i) { return f.cell->vertex((f.index + i) & 3)->point(); }
+
+  static double squared_distance(const Point& p, const Facet& f)
+  {
+    const typename Kernel::Triangle_3 triangle(corner(f, 1), corner(f, 2), corner(f, 3));
+    return CGAL::to_double(CGAL::squared_distance(p, triangle));
+  }
+
+  /// To all facets that have a vertex in common with f.
+  double squared_distance_around(const Point& p, const Facet& f) const
+  {
+    double nearest = squared_distance(p, f);
+    thread_local std::vector<Cell_handle> cells;
+    cells.clear();
+    for (int i = 1; i <= 3; ++i)
+      mesh_->triangulation().incident_cells(f.cell->vertex((f.index + i) & 3), std::back_inserter(cells));
+    for (const Cell_handle c : cells)
+      for (int i = 0; i < 4; ++i)
+        if (const Facet* other = mesh_->facet(c, i)) nearest = (std::min)(nearest, squared_distance(p, *other));
+    return nearest;
+  }
+
+  /// Barycentric coordinates. With the centroid and the middles of the edges alone, smoothing raises the distance of
+  /// the dragknob by a third unseen; with these by 15 %.
+  static constexpr double samples[][2] = {{1. / 3, 1. / 3}, {.6, .2},   {.2, .6},  {.2, .2}, {.5, 0},
+                                          {0, .5},          {.5, .5},   {.25, 0},  {.75, 0}, {0, .25},
+                                          {0, .75},         {.25, .75}, {.75, .25}};
+
+  const Restricted* mesh_;
+};
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_DEVIATION_3_H
