@@ -21,6 +21,23 @@ private:
   Clock::time_point start_ = Clock::now();
 };
 
+/// Seconds between calls.
+class Lap_timer
+{
+public:
+  /// Since the last call, or construction.
+  double seconds()
+  {
+    const double now = timer_.seconds(), lap = now - last_;
+    last_ = now;
+    return lap;
+  }
+
+private:
+  Timer timer_;
+  double last_ = 0;
+};
+
 } // namespace internal
 } // namespace weft
 

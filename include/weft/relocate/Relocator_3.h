@@ -31,6 +31,11 @@ struct Relocation_counts_3
   std::size_t flips = 0;
   std::size_t stuck = 0; ///< facets that no flip could make Delaunay
   std::size_t rebuilds = 0;
+  // Wall time:
+  double moving_seconds = 0;      ///< moving vertices and putting those back that would turn cells over
+  double flipping_seconds = 0;    ///< finding what isn't Delaunay, and flips
+  double rebuilding_seconds = 0;  ///< moving vertices one by one, or building anew
+  double classifying_seconds = 0; ///< finding out what the new cells and facets are
 
   Relocation_counts_3& operator+=(const Relocation_counts_3& o)
   {
@@ -41,7 +46,16 @@ struct Relocation_counts_3
     flips += o.flips;
     stuck += o.stuck;
     rebuilds += o.rebuilds;
+    add_times(o);
     return *this;
+  }
+
+  void add_times(const Relocation_counts_3& o)
+  {
+    moving_seconds += o.moving_seconds;
+    flipping_seconds += o.flipping_seconds;
+    rebuilding_seconds += o.rebuilding_seconds;
+    classifying_seconds += o.classifying_seconds;
   }
 };
 
@@ -158,33 +172,48 @@ private:
                                                     c->vertex(3)->point()) != CGAL::POSITIVE;
   }
 
-  /// All moved vertices of an inverted cell go back, which may turn over cells next to it.
+  /// Of each inverted cell one vertex goes back, if that of any is enough, else all that moved; which may turn over
+  /// cells around it. Putting all of them back at once leaves 2.5 times as many to be moved one by one.
   void put_back_inverted(const std::vector<Vertex_handle>& vertices, std::vector<std::size_t>& deferred)
   {
     deferred.clear();
-    std::vector<Cell_handle> inverted, next;
+    inverted_.clear();
     for (const Cell_handle c : cells_)
-      if (is_inverted(c)) inverted.push_back(c);
-    while (!inverted.empty()) {
-      const std::size_t first = deferred.size();
-      for (const Cell_handle c : inverted)
-        for (int k = 0; k < 4; ++k) {
-          const std::size_t i = index(c->vertex(k));
-          if (i == none) continue;
-          index_[static_cast<std::size_t>(vertices[i]->id())] = none;
-          vertices[i]->set_point(old_[i]);
-          deferred.push_back(i);
-        }
-      next.clear();
-      for (std::size_t d = first; d < deferred.size(); ++d) {
-        star_.clear();
-        tr_.incident_cells(vertices[deferred[d]], std::back_inserter(star_));
-        for (const Cell_handle c : star_)
-          if (is_inverted(c)) next.push_back(c);
+      if (is_inverted(c)) inverted_.push_back(c);
+    const auto put_back = [&](std::size_t i) {
+      index_[static_cast<std::size_t>(vertices[i]->id())] = none;
+      vertices[i]->set_point(old_[i]);
+      deferred.push_back(i);
+      star_.clear();
+      tr_.incident_cells(vertices[i], std::back_inserter(star_));
+      for (const Cell_handle c : star_)
+        if (is_inverted(c)) inverted_.push_back(c);
+    };
+    for (std::size_t k = 0; k < inverted_.size(); ++k) {
+      const Cell_handle c = inverted_[k];
+      if (!is_inverted(c)) continue;
+      const std::size_t enough = vertex_that_turns_back(c, vertices);
+      for (int i = 0; i < 4; ++i) {
+        const std::size_t m = index(c->vertex(i));
+        if (m != none && (enough == none || m == enough)) put_back(m);
       }
-      inverted.swap(next);
     }
     std::sort(deferred.begin(), deferred.end());
+  }
+
+  /// The first moved vertex of a cell that would be enough to put back, for it to have its orientation.
+  std::size_t vertex_that_turns_back(Cell_handle c, const std::vector<Vertex_handle>& vertices) const
+  {
+    for (int i = 0; i < 4; ++i) {
+      const std::size_t m = index(c->vertex(i));
+      if (m == none) continue;
+      const Point target = vertices[m]->point();
+      vertices[m]->set_point(old_[m]);
+      const bool is_enough = !is_inverted(c);
+      vertices[m]->set_point(target);
+      if (is_enough) return m;
+    }
+    return none;
   }
 
   // ---- flips
@@ -319,7 +348,7 @@ private:
   Triangulation& tr_;
   std::vector<Point> old_;
   std::vector<std::size_t> index_; ///< by id, place in the list of moved vertices
-  std::vector<Cell_handle> cells_, star_;
+  std::vector<Cell_handle> cells_, star_, inverted_;
   std::vector<Queued> queue_, stuck_;
 };
 

@@ -229,6 +229,7 @@ private:
     edges_.clear();
     index_.clear();
     numbers_are_stale_ = false;
+    edges_of_crease_.assign(creases_.size(), 0);
     for (std::size_t c = 0; c < creases_.size(); ++c) {
       const auto& visits = creases_[c].visits;
       const std::size_t first = edges_.size();

@@ -11,6 +11,8 @@
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -33,7 +35,7 @@ public:
   ///   smallest size everywhere.
   explicit Dynamic_sizing_3(double lipschitz = 1) : lipschitz_(lipschitz) {}
 
-  /// Measures the edges of cells and facets of the domain and of creases, and grades. Distances between vertices are
+  /// Measures the edges of the domain's cells, and grades. Distances between vertices are
   /// along edges, which in a Delaunay triangulation are at most twice as long. O(n log n).
   void update(const Restricted& mesh)
   {
@@ -68,60 +70,89 @@ private:
     double length;
   };
 
+  /// Collects the edges of the domain's cells, each once: cells list their edges at the vertex with the smaller number,
+  /// where a mark by vertex sorts out those seen before. Circulating around every edge to see whether a cell there
+  /// belongs to the domain takes eight times as long.
   void load_edges(const Restricted& mesh)
   {
+    list_cell_edges(mesh);
+    const std::size_t n = mesh.vertices().size();
     ends_.clear();
-    for (const auto& e : mesh.triangulation().finite_edges())
-      if (is_in_domain(mesh, e)) ends_.emplace_back(e.first->vertex(e.second), e.first->vertex(e.third));
-    first_.assign(mesh.vertices().size() + 1, 0);
-    for (const auto& [a, b] : ends_) {
-      ++first_[static_cast<std::size_t>(a->id()) + 1];
-      ++first_[static_cast<std::size_t>(b->id()) + 1];
-    }
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    first_.assign(n + 1, 0);
+    std::vector<std::size_t> seen_from(n, n);
+    for (std::size_t v = 0; v < n; ++v)
+      for (std::size_t k = first_upper_[v]; k < first_upper_[v + 1]; ++k) {
+        const std::size_t w = upper_[k];
+        if (seen_from[w] == v) continue;
+        seen_from[w] = v;
+        ends_.emplace_back(v, w);
+        ++first_[v + 1];
+        ++first_[w + 1];
+      }
+    for (std::size_t v = 1; v <= n; ++v) first_[v] += first_[v - 1];
     edges_.resize(2 * ends_.size());
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
     for (const auto& [a, b] : ends_) {
-      const double length = std::sqrt(CGAL::to_double(CGAL::squared_distance(a->point(), b->point())));
-      edges_[next[static_cast<std::size_t>(a->id())]++] = {static_cast<std::size_t>(b->id()), length};
-      edges_[next[static_cast<std::size_t>(b->id())]++] = {static_cast<std::size_t>(a->id()), length};
+      const double length =
+          std::sqrt(CGAL::to_double(CGAL::squared_distance(mesh.vertices()[a]->point(), mesh.vertices()[b]->point())));
+      edges_[next[a]++] = {b, length};
+      edges_[next[b]++] = {a, length};
     }
   }
 
-  /// Whether a cell around an edge belongs to the domain.
-  template <class Triangulation_edge>
-  static bool is_in_domain(const Restricted& mesh, const Triangulation_edge& e)
+  /// The greater ends of the edges of cells by their smaller ends, as often as there are cells around.
+  void list_cell_edges(const Restricted& mesh)
   {
-    if (e.first->vertex(e.second)->id() < 0 || e.first->vertex(e.third)->id() < 0) return false;
-    auto c = mesh.triangulation().incident_cells(e);
-    const auto begin = c;
-    do
-      if (c->subdomain() != 0) return true;
-    while (++c != begin);
-    return false;
+    corners_.clear();
+    first_upper_.assign(mesh.vertices().size() + 1, 0);
+    for (const auto c : mesh.triangulation().finite_cell_handles()) {
+      if (c->subdomain() == 0) continue;
+      std::array<std::size_t, 4> ids;
+      for (int i = 0; i < 4; ++i) ids[static_cast<std::size_t>(i)] = static_cast<std::size_t>(c->vertex(i)->id());
+      std::sort(ids.begin(), ids.end());
+      for (std::size_t i = 0; i < 3; ++i) first_upper_[ids[i] + 1] += 3 - i;
+      corners_.push_back(ids);
+    }
+    for (std::size_t v = 1; v < first_upper_.size(); ++v) first_upper_[v] += first_upper_[v - 1];
+    upper_.resize(first_upper_.back());
+    std::vector<std::size_t> next(first_upper_.begin(), first_upper_.end() - 1);
+    for (const auto& ids : corners_)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i + 1; j < 4; ++j) upper_[next[ids[i]]++] = ids[j];
   }
 
-  /// Dijkstra's algorithm from all vertices at once.
+  /// Dijkstra's algorithm from all vertices at once that make another one smaller: few do, since an edge rarely is
+  /// longer than the mean at its end by as much as it is long itself.
   void grade()
   {
     using Entry = std::pair<double, std::size_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-    for (std::size_t v = 0; v < sizes_.size(); ++v) queue.emplace(sizes_[v], v);
+    const auto spread = [&](double size, std::size_t v, const auto& reached) {
+      for (std::size_t e = first_[v]; e < first_[v + 1]; ++e) {
+        const double at_other = size + lipschitz_ * edges_[e].length;
+        if (at_other < sizes_[edges_[e].other]) reached(edges_[e].other, at_other);
+      }
+    };
+    for (std::size_t v = 0; v < sizes_.size(); ++v) {
+      bool spreads = false;
+      spread(sizes_[v], v, [&](std::size_t, double) { spreads = true; });
+      if (spreads) queue.emplace(sizes_[v], v);
+    }
     while (!queue.empty()) {
       const auto [size, v] = queue.top();
       queue.pop();
       if (size > sizes_[v]) continue;
-      for (std::size_t e = first_[v]; e < first_[v + 1]; ++e) {
-        const double reached = size + lipschitz_ * edges_[e].length;
-        if (reached >= sizes_[edges_[e].other]) continue;
-        sizes_[edges_[e].other] = reached;
-        queue.emplace(reached, edges_[e].other);
-      }
+      spread(size, v, [&](std::size_t w, double reached) {
+        sizes_[w] = reached;
+        queue.emplace(reached, w);
+      });
     }
   }
 
   double lipschitz_, uniform_ = 0;
-  std::vector<std::pair<Vertex_handle, Vertex_handle>> ends_;
+  std::vector<std::array<std::size_t, 4>> corners_; ///< sorted, of the domain's cells
+  std::vector<std::size_t> first_upper_, upper_;
+  std::vector<std::pair<std::size_t, std::size_t>> ends_;
   std::vector<std::size_t> first_; ///< of the edges of each vertex
   std::vector<Edge> edges_;
   std::vector<double> sizes_;

@@ -70,9 +70,13 @@ struct Smooth_report_3
   std::size_t moves = 0;         ///< of vertices, in sweeps that were kept
   std::size_t locked = 0;        ///< vertices that stayed since all their cells are excellent, summed over sweeps
   std::size_t rejected = 0;      ///< moves shortened or taken back since a criterion would have been violated
-  double energy_before = 0, energy_after = 0; ///< ODT energy, in the metric of the sizes at the time
-  Relocation_counts_3 relocations;
-  double seconds = 0;
+  double energy_before = 0, energy_after = 0; ///< ODT energy; only with `uniform`: other metrics change with the mesh
+  Relocation_counts_3 relocations;            ///< with the times that they took, those of moves taken back included
+  // Wall time:
+  double sizing_seconds = 0;   ///< the dynamic sizing field
+  double position_seconds = 0; ///< where vertices want to be, projected
+  double guard_seconds = 0;    ///< looking for violated criteria
+  double seconds = 0;          ///< altogether
 };
 
 /// The smoother's driver; `smooth_3()` runs it.
@@ -89,17 +93,21 @@ public:
   Mesh_smoother_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Smooth_options_3& options,
                   const Smoother& smoother)
       : mesh_(mesh),
-        guard_(mesh, criteria),
         options_(options),
         smoother_(smoother),
         sizing_(options.lipschitz),
         steps_(mesh.vertices().size(), 1)
-  {}
+  {
+    if (!options.keep_criteria) return; // measuring the whole mesh takes as long as three sweeps
+    internal::Lap_timer lap;
+    guard_.emplace(mesh, criteria);
+    report_.guard_seconds = lap.seconds();
+  }
 
   Smooth_report_3 run()
   {
     update_sizes();
-    report_.energy_before = report_.energy_after = energy();
+    if (options_.uniform) report_.energy_before = report_.energy_after = energy();
     for (int sweep = 0; sweep < options_.max_sweeps && goes_on(); ++sweep) {
       if (sweep > 0) update_sizes();
       if (!run_sweep()) break;
@@ -113,10 +121,12 @@ private:
 
   void update_sizes()
   {
+    internal::Lap_timer lap;
     if (options_.uniform)
       sizing_.update_uniformly(mesh_);
     else
       sizing_.update(mesh_);
+    report_.sizing_seconds += lap.seconds();
   }
 
   /// One sweep; whether another one is worth it.
@@ -124,23 +134,28 @@ private:
   {
     choose_moves();
     if (ids_.empty()) return false;
-    const double before = energy();
     std::vector<Point> old;
     for (const int id : ids_) old.push_back(vertex(id)->point());
     report_.relocations += mesh_.relocate(ids_, targets_);
     kept_ = ids_.size();
     if (options_.keep_criteria) take_back(old);
-    report_.energy_after = energy();
-    if (options_.uniform && Smoother::minimises_odt && report_.energy_after > before) {
-      mesh_.relocate(ids_, old);
-      report_.energy_after = before;
-      ++report_.undone_sweeps;
-      relaxation_ /= 2;
-      return relaxation_ > least_relaxation;
-    }
+    if (options_.uniform && undo_if_worse(old)) return relaxation_ > least_relaxation;
     report_.moves += kept_;
     ++report_.sweeps;
     return kept_ > 0;
+  }
+
+  /// Undoes a sweep that has raised the energy; later ones go a shorter way. Whether it was so.
+  bool undo_if_worse(const std::vector<Point>& old)
+  {
+    const double before = report_.energy_after;
+    report_.energy_after = energy();
+    if (!Smoother::minimises_odt || report_.energy_after <= before) return false;
+    report_.relocations.add_times(mesh_.relocate(ids_, old));
+    report_.energy_after = before;
+    ++report_.undone_sweeps;
+    relaxation_ /= 2;
+    return true;
   }
 
   Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
@@ -149,8 +164,11 @@ private:
 
   void choose_moves()
   {
+    internal::Lap_timer lap;
+    list_stars();
     const std::vector<char> is_free = free_vertices();
-    const Smoothing_context_3<Restricted, Sizing> context(mesh_, sizing_);
+    Smoothing_context_3<Restricted, Sizing> context(mesh_, sizing_);
+    context.measure(cells_, options_.threads);
     std::vector<std::optional<Point>> wanted(is_free.size());
     internal::parallel_for(is_free.size(), options_.threads, [&](std::size_t i) {
       if (is_free[i] && steps_[i] > least_step) wanted[i] = target(context, mesh_.vertices()[i]);
@@ -162,21 +180,46 @@ private:
       ids_.push_back(static_cast<int>(i));
       targets_.push_back(*wanted[i]);
     }
+    report_.position_seconds += lap.seconds();
+  }
+
+  /// The cells around every vertex, by one pass over all cells, which takes a third of the time of walking around
+  /// every vertex.
+  void list_stars()
+  {
+    cells_.clear();
+    first_.assign(mesh_.vertices().size() + 1, 0);
+    const auto at = [](Cell_handle c, int i) { return static_cast<std::size_t>(c->vertex(i)->id()); };
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
+      c->set_id(static_cast<int>(cells_.size()));
+      cells_.push_back(c);
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i)->id() >= 0) ++first_[at(c, i) + 1];
+    }
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    stars_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (const Cell_handle c : cells_)
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i)->id() >= 0) stars_[next[at(c, i)]++] = c;
   }
 
   /// By id: vertices that aren't feature vertices, have cells in the domain and not only excellent ones.
   std::vector<char> free_vertices()
   {
-    std::vector<char> is_free(mesh_.vertices().size(), false);
+    std::vector<char> is_free(mesh_.vertices().size(), false), is_excellent(cells_.size());
     const double smallest = std::cos(options_.locked_smallest * degree),
                  largest = std::cos(options_.locked_largest * degree);
-    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (c->subdomain() == 0) continue;
+    internal::parallel_for(cells_.size(), options_.threads, [&](std::size_t k) {
+      const Cell_handle c = cells_[k];
+      if (c->subdomain() == 0) return;
       const Dihedral_cosines_3 angles = cosines_of_extreme_dihedrals(c->vertex(0)->point(), c->vertex(1)->point(),
                                                                      c->vertex(2)->point(), c->vertex(3)->point());
-      if (angles.smallest <= smallest && angles.largest >= largest) continue;
-      for (int i = 0; i < 4; ++i) is_free[static_cast<std::size_t>(c->vertex(i)->id())] = true;
-    }
+      is_excellent[k] = angles.smallest <= smallest && angles.largest >= largest;
+    });
+    for (const Cell_handle c : cells_)
+      if (c->subdomain() != 0 && !is_excellent[static_cast<std::size_t>(c->id())])
+        for (int i = 0; i < 4; ++i) is_free[static_cast<std::size_t>(c->vertex(i)->id())] = true;
     for (const Vertex_handle v : mesh_.vertices()) {
       char& f = is_free[static_cast<std::size_t>(v->id())];
       const int dimension = v->location().dimension;
@@ -191,19 +234,19 @@ private:
   template <class Context>
   std::optional<Point> target(const Context& context, Vertex_handle v) const
   {
+    const auto id = static_cast<std::size_t>(v->id());
     thread_local std::vector<Cell_handle> star;
-    star.clear();
-    mesh_.triangulation().incident_cells(v, std::back_inserter(star));
+    star.assign(stars_.begin() + static_cast<std::ptrdiff_t>(first_[id]),
+                stars_.begin() + static_cast<std::ptrdiff_t>(first_[id + 1]));
     const std::optional<Point> wanted = smoother_(context, v, star);
     if (!wanted) return std::nullopt;
     const auto move = *wanted - v->point();
-    const double length = std::sqrt(CGAL::to_double(move.squared_length())), reach = 0.5 * shortest_edge(v, star);
-    const double step = relaxation_ * steps_[static_cast<std::size_t>(v->id())];
-    if (!(step * length > options_.move_ratio * sizing_(v))) return std::nullopt;
+    const double length = std::sqrt(CGAL::to_double(move.squared_length()));
+    const double step = relaxation_ * steps_[id], least = options_.move_ratio * sizing_(v);
+    if (!(step * length > least)) return std::nullopt;
+    const double reach = 0.5 * shortest_edge(v, star);
     const Point p = on_own_place(v->point() + (std::min)(step, reach / length) * move, v->location());
-    const double moved = CGAL::to_double(CGAL::squared_distance(p, v->point()));
-    const double least = options_.move_ratio * sizing_(v);
-    if (!(moved > least * least)) return std::nullopt;
+    if (!(CGAL::to_double(CGAL::squared_distance(p, v->point())) > least * least)) return std::nullopt;
     if (v->location().dimension == 3 && mesh_.oracle().subdomain(p) != v->location().index) return std::nullopt;
     return p;
   }
@@ -234,7 +277,7 @@ private:
     place_.assign(mesh_.vertices().size(), none);
     for (std::size_t i = 0; i < ids_.size(); ++i) place_[static_cast<std::size_t>(ids_[i])] = i;
     parts_.assign(ids_.size(), 1);
-    auto bad = guard_.new_offenders();
+    auto bad = new_offenders();
     for (int round = 0; !bad.empty(); ++round) {
       const std::vector<std::size_t> shortened = shorten_moves(bad, round);
       if (shortened.empty()) break; // all is as it was
@@ -245,15 +288,23 @@ private:
         points.push_back(parts_[i] > 0 ? part_of_the_way(old[i], targets_[i], parts_[i], vertex(ids_[i])->location())
                                        : old[i]);
       }
-      report_.relocations += mesh_.relocate(ids, points);
-      auto next = guard_.new_offenders();
+      report_.relocations.add_times(mesh_.relocate(ids, points));
+      auto next = new_offenders();
       for (const auto& element : bad)
-        if (guard_.is_offending(element)) next.push_back(element);
+        if (guard_->is_offending(element)) next.push_back(element);
       std::sort(next.begin(), next.end());
       next.erase(std::unique(next.begin(), next.end()), next.end());
       bad.swap(next);
     }
     learn_steps();
+  }
+
+  auto new_offenders()
+  {
+    internal::Lap_timer lap;
+    auto result = guard_->new_offenders();
+    report_.guard_seconds += lap.seconds();
+    return result;
   }
 
   /// The moves that were made shorter, by their places in `ids_`.
@@ -318,10 +369,7 @@ private:
       double edges = 0;
       for (int i = 0; i < 3; ++i)
         for (int j = i + 1; j < 4; ++j) edges += context.squared_length(c->vertex(i), c->vertex(j));
-      const double volume = CGAL::to_double(
-          CGAL::volume(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point()));
-      sum +=
-          volume * edges * context.template mean_power<4>({c->vertex(0), c->vertex(1), c->vertex(2), c->vertex(3)}, 3);
+      sum += edges * context.mass(c);
     }
     return sum / 20;
   }
@@ -332,13 +380,15 @@ private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   Restricted& mesh_;
-  Criteria_guard_3<Restricted> guard_;
+  std::optional<Criteria_guard_3<Restricted>> guard_; ///< where criteria are kept
   const Smooth_options_3& options_;
   const Smoother& smoother_;
   Sizing sizing_;
-  double relaxation_ = 1;     ///< part of the way that all vertices go
-  std::vector<double> steps_; ///< by id: the same for each of them
-  std::vector<int> ids_;      ///< of the vertices that a sweep moves
+  double relaxation_ = 1;                  ///< part of the way that all vertices go
+  std::vector<double> steps_;              ///< by id: the same for each of them
+  std::vector<Cell_handle> cells_, stars_; ///< all finite cells; those around each vertex, by id
+  std::vector<std::size_t> first_;         ///< of each vertex in `stars_`
+  std::vector<int> ids_;                   ///< of the vertices that a sweep moves
   std::vector<Point> targets_;
   std::vector<std::size_t> place_; ///< by id: place in `ids_`
   std::vector<double> parts_;      ///< of these moves, the parts that are made

@@ -8,6 +8,8 @@
 #ifndef WEFT_SPATIAL_SMOOTHERS_3_H
 #define WEFT_SPATIAL_SMOOTHERS_3_H
 
+#include <weft/internal/parallel_for.h>
+
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -69,6 +71,21 @@ public:
     return at_vertices / (n * (n + 1)) + raised(1 / mean, power) * n / (n + 1);
   }
 
+  /// Measures all cells of a list in advance, whose numbers they have to have as `id()`: each is asked for four times.
+  void measure(const std::vector<Cell_handle>& cells, int threads)
+  {
+    masses_.resize(cells.size());
+    internal::parallel_for(cells.size(), threads, [&](std::size_t k) {
+      masses_[k] = cells[k]->subdomain() == 0 ? 0 : measured_mass(cells[k]);
+    });
+  }
+
+  /// Volume of a cell in the metric.
+  double mass(Cell_handle c) const
+  {
+    return masses_.empty() ? measured_mass(c) : masses_[static_cast<std::size_t>(c->id())];
+  }
+
   /// Squared length of an edge in the metric.
   double squared_length(Vertex_handle a, Vertex_handle b) const
   {
@@ -77,6 +94,13 @@ public:
   }
 
 private:
+  double measured_mass(Cell_handle c) const
+  {
+    const double volume = std::abs(CGAL::to_double(
+        CGAL::volume(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point())));
+    return volume * mean_power<4>({c->vertex(0), c->vertex(1), c->vertex(2), c->vertex(3)}, 3);
+  }
+
   static double raised(double x, int power)
   {
     double y = x;
@@ -87,6 +111,7 @@ private:
   const Restricted& mesh_;
   const Sizing& sizing_;
   std::unordered_map<int, std::vector<Point>> crease_points_;
+  std::vector<double> masses_; ///< by cell id; empty: measured when asked for
 };
 
 namespace internal {
@@ -121,10 +146,7 @@ auto pull_of_circumcenters(const Context& context, typename Context::Vertex_hand
   Pull_3<typename Context::Vector> pull;
   for (const auto c : star) {
     if (c->subdomain() == 0) continue;
-    const double volume = std::abs(CGAL::to_double(
-        CGAL::volume(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point())));
-    const double scale = context.template mean_power<4>({c->vertex(0), c->vertex(1), c->vertex(2), c->vertex(3)}, 3);
-    pull.add(volume * scale, c->circumcenter() - v->point());
+    pull.add(context.mass(c), c->circumcenter() - v->point());
   }
   return pull;
 }
