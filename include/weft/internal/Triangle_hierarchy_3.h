@@ -126,6 +126,23 @@ public:
     return best;
   }
 
+  /// Whether the surface comes as near to p as that: mostly known from the first triangles that are looked at.
+  bool is_within(const Point& p, double squared_distance) const
+  {
+    if (boxes_.empty()) return false;
+    const std::array<float, 3> from = rounded(framed(p));
+    const double distance = std::sqrt(squared_distance) * boxes_.frame().scale, error = 2 * distance_error(from);
+    const double least = std::max(0., distance * (1 - 1e-6) - error), most = distance * (1 + 1e-6) + error;
+    const auto surely = static_cast<float>(least * least * (1 - 1e-6));
+    const Float_4 infinity = std::numeric_limits<float>::infinity();
+    bool found = false;
+    boxes_.visit_nearest(from, static_cast<float>(most * most * (1 + 1e-6)), [&](std::uint32_t block, float limit) {
+      found = found || smallest(min(blocks_[block].squared_distances(from).upper, infinity)) < surely;
+      return found ? 0.f : limit;
+    });
+    return found || nearest(p).squared_distance <= squared_distance;
+  }
+
   /// A lower bound of the distance to the surface that is at most some 1e-6 diagonals of the box too small.
   double clearance(const Point& p) const
   {

@@ -208,22 +208,19 @@ private:
 
   Grade grade(const Facet& f) const
   {
-    const Squared_deviation_3 d = deviation_.of(f);
-    Grade grade{ratio(measure_.facet(f)), beyond(d.depth, farthest_.depth), beyond(d.height, farthest_.height), 0};
+    const Squared_deviation_3 d = deviation_.beyond(farthest_, f);
+    Grade grade{ratio(measure_.facet(f)), d.depth, d.height, 0};
     for (int i = 1; i < 4; ++i) grade.astray += f.cell->vertex((f.index + i) & 3)->location().dimension > 2;
     return grade;
   }
 
   Grade grade(const Crease_edge& e) const
   {
-    return {ratio(measure_.crease_edge(e)), 0, beyond(deviation_.of(e), farthest_of_crease_), 0};
+    const double d = deviation_.of(e);
+    return {ratio(measure_.crease_edge(e)), d > farthest_of_crease_ ? d : 0, 0, 0};
   }
 
   static double ratio(const Badness_3& badness) { return badness.is_bad() ? badness.ratio : 0; }
-  static double beyond(double squared_distance, double bound)
-  {
-    return squared_distance > bound ? squared_distance : 0;
-  }
 
   Grade grade(Vertex_handle v) const { return {has_topological_disk(mesh_, v) ? 0. : 1., 0, 0, 0}; }
 

@@ -7,6 +7,8 @@
 #ifndef WEFT_SPATIAL_DEVIATION_3_H
 #define WEFT_SPATIAL_DEVIATION_3_H
 
+#include <weft/internal/nearest_point_3.h>
+
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
@@ -50,7 +52,14 @@ public:
   /// \param mesh has to live as long as this object.
   explicit Deviation_3(const Restricted& mesh) : mesh_(&mesh) {}
 
-  Squared_deviation_3 of(const Facet& f) const { return {depth(f), height(f)}; }
+  Squared_deviation_3 of(const Facet& f) const { return {depth(f), height(f, 0)}; }
+
+  /// The same but 0 where it isn't beyond a bound, which is much cheaper to tell.
+  Squared_deviation_3 beyond(const Squared_deviation_3& bound, const Facet& f) const
+  {
+    const bool is_deep = !for_each_sample(f, [&](const Point& p) { return mesh_->oracle().is_within(p, bound.depth); });
+    return {is_deep ? depth(f) : 0, height(f, bound.height)};
+  }
 
   /// Squared distance of the farthest corner of a crease from the edge that stands for it there: those corners to both
   /// sides of its Steiner point whose projections lie between the ends of the edge.
@@ -76,38 +85,47 @@ public:
   }
 
 private:
-  /// At a few points, the farthest from the surface.
+  /// Calls `visit(point)` for a few points of a facet until it returns false; whether it never did.
+  template <class Visit>
+  static bool for_each_sample(const Facet& f, const Visit& visit)
+  {
+    const Point& a = corner(f, 1);
+    const auto ab = corner(f, 2) - a, ac = corner(f, 3) - a;
+    for (const auto& [s, t] : samples)
+      if (!visit(a + s * ab + t * ac)) return false;
+    return true;
+  }
+
+  /// Of these points, the farthest from the surface.
   double depth(const Facet& f) const
   {
-    const Point &a = corner(f, 1), &b = corner(f, 2), &c = corner(f, 3);
-    const auto ab = b - a, ac = c - a;
     double deepest = 0;
-    for (const auto& [s, t] : samples) {
-      const Point p = a + s * ab + t * ac;
+    for_each_sample(f, [&](const Point& p) {
       deepest = (std::max)(deepest, CGAL::to_double(CGAL::squared_distance(p, mesh_->oracle().closest(p).point)));
-    }
+      return true;
+    });
     return deepest;
   }
 
   /// The other way round: of the salient points of the surface near the facet, the farthest from the facet and from
-  /// those around it.
-  double height(const Facet& f) const
+  /// those around it; 0 if that isn't beyond the bound.
+  double height(const Facet& f, double bound) const
   {
-    double highest = 0;
+    double highest = bound;
     const double squared_reach = 1.5 * 1.5 * f.squared_radius; // tips stick out of surface Delaunay balls
     mesh_->oracle().visit_salient_points(f.steiner, squared_reach, f.patch, [&](const Point& p) {
       const double own = squared_distance(p, f);
       if (own > highest) highest = (std::max)(highest, (std::min)(own, squared_distance_around(p, f)));
     });
-    return highest;
+    return highest > bound ? highest : 0;
   }
 
   static const Point& corner(const Facet& f, int i) { return f.cell->vertex((f.index + i) & 3)->point(); }
 
   static double squared_distance(const Point& p, const Facet& f)
   {
-    const typename Kernel::Triangle_3 triangle(corner(f, 1), corner(f, 2), corner(f, 3));
-    return CGAL::to_double(CGAL::squared_distance(p, triangle));
+    return CGAL::to_double(
+        CGAL::squared_distance(p, internal::nearest_point_on_triangle(p, corner(f, 1), corner(f, 2), corner(f, 3))));
   }
 
   /// To all facets that have a vertex in common with f.

@@ -136,6 +136,9 @@ public:
   /// Nearest point of the boundary.
   Surface_hit_3<K> closest(const Point& p) const { return hit(surface_.nearest(p)); }
 
+  /// Whether the boundary comes as near to p as that.
+  bool is_within(const Point& p, double squared_distance) const { return surface_.is_within(p, squared_distance); }
+
   /// Nearest point of a patch.
   Surface_hit_3<K> project_on_patch(const Point& p, int patch) const
   {
