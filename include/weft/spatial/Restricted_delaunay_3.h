@@ -487,16 +487,19 @@ private:
     edges_.clear();
     edge_of_facet_.assign(4 * new_cells_.size(), -1);
     for (std::size_t k = 0; k < new_cells_.size(); ++k) new_cells_[k]->set_id(static_cast<int>(k));
-    for (std::size_t k = 0; k < new_cells_.size(); ++k)
+    for (std::size_t k = 0; k < new_cells_.size(); ++k) {
+      const Cell_handle c = new_cells_[k];
+      const unsigned box = vertices_of_box(c);
       for (int i = 0; i < 4; ++i) {
-        const Cell_handle c = new_cells_[k], other = c->neighbor(i);
-        if (is_facet_at_box(c, i) || edge_of_facet_[4 * k + static_cast<std::size_t>(i)] >= 0) continue;
+        if ((box & ~(1u << i)) != 0 || edge_of_facet_[4 * k + static_cast<std::size_t>(i)] >= 0) continue;
+        const Cell_handle other = c->neighbor(i);
         set_edge(c, i, static_cast<int>(edges_.size()));
         if (!other->is_classified()) set_edge(other, other->index(c), static_cast<int>(edges_.size()));
         edges_.push_back({});
         edges_.back().facet.cell = c;
         edges_.back().facet.index = i;
       }
+    }
     internal::parallel_for(edges_.size(), threads_, [this](std::size_t k) { cross_boundary(edges_[k]); });
     counts_.segments += edges_.size();
   }
@@ -521,11 +524,12 @@ private:
     }
   }
 
-  static bool is_facet_at_box(Cell_handle c, int i)
+  /// Bit i for vertex i.
+  static unsigned vertices_of_box(Cell_handle c)
   {
-    for (int k = 0; k < 4; ++k)
-      if (k != i && c->vertex(k)->location().dimension < 0) return true;
-    return false;
+    unsigned bits = 0;
+    for (int i = 0; i < 4; ++i) bits |= unsigned(c->vertex(i)->location().dimension < 0) << i;
+    return bits;
   }
 
   /// A cell lies in the subdomain of a neighbour unless the boundary lies between: from the old cells inwards.

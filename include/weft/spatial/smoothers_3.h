@@ -75,8 +75,11 @@ public:
   void measure(const std::vector<Cell_handle>& cells, int threads)
   {
     masses_.resize(cells.size());
+    boundaries_.resize(cells.size());
     internal::parallel_for(cells.size(), threads, [&](std::size_t k) {
-      masses_[k] = cells[k]->subdomain() == 0 ? 0 : measured_mass(cells[k]);
+      const bool inside = cells[k]->subdomain() != 0;
+      masses_[k] = inside ? measured_mass(cells[k]) : 0;
+      boundaries_[k] = inside ? measured_boundary(cells[k]) : 0;
     });
   }
 
@@ -84,6 +87,12 @@ public:
   double mass(Cell_handle c) const
   {
     return masses_.empty() ? measured_mass(c) : masses_[static_cast<std::size_t>(c->id())];
+  }
+
+  /// Which facets of a cell lie on the boundary of its subdomain: bit i for that opposite to vertex i.
+  unsigned boundary(Cell_handle c) const
+  {
+    return boundaries_.empty() ? measured_boundary(c) : boundaries_[static_cast<std::size_t>(c->id())];
   }
 
   /// Squared length of an edge in the metric.
@@ -101,6 +110,13 @@ private:
     return volume * mean_power<4>({c->vertex(0), c->vertex(1), c->vertex(2), c->vertex(3)}, 3);
   }
 
+  static unsigned char measured_boundary(Cell_handle c)
+  {
+    unsigned bits = 0;
+    for (int i = 0; i < 4; ++i) bits |= unsigned(c->neighbor(i)->subdomain() != c->subdomain()) << i;
+    return static_cast<unsigned char>(bits);
+  }
+
   static double raised(double x, int power)
   {
     double y = x;
@@ -112,6 +128,7 @@ private:
   const Sizing& sizing_;
   std::unordered_map<int, std::vector<Point>> crease_points_;
   std::vector<double> masses_; ///< by cell id; empty: measured when asked for
+  std::vector<unsigned char> boundaries_;
 };
 
 namespace internal {
@@ -166,10 +183,11 @@ struct Natural_odt_3
   {
     auto pull = internal::pull_of_circumcenters(context, v, star);
     for (const auto c : star) {
-      if (c->subdomain() == 0) continue;
+      const unsigned boundary = c->subdomain() == 0 ? 0 : context.boundary(c);
+      if (boundary == 0) continue;
       const int iv = c->index(v);
       for (int i = 0; i < 4; ++i)
-        if (i != iv && c->neighbor(i)->subdomain() != c->subdomain())
+        if (i != iv && (boundary >> i & 1))
           pull.sum = pull.sum - boundary_term(context, c, iv, i) / 12; // lambda = -1/2 times 1/6
     }
     return pull.position(v->point());
