@@ -266,25 +266,27 @@ private:
 
   // ---- places
 
-  /// As in Alg. 7 the gradients have their turn before chance.
+  /// As in Alg. 7 the gradients have their turn before chance, but only two steps along each: places are judged so
+  /// cheaply that with four, random directions alone are as fast or faster (anchor: 0.37 times the time; with two 0.67;
+  /// elephant 0.95 and 1.12).
   void find_places(const Point& origin, int trials, bool at_random)
   {
     places_.clear();
+    bool done = false;
     if (!at_random && options_.directions == Perturb_directions_3::combined)
-      for (const double step : {0.05, 0.1, 0.2, 0.3}) {
-        try_along(origin, by_radius_, step, &Perturb_report_3::by_radius);
-        try_along(origin, by_volume_, step, &Perturb_report_3::by_volume);
+      for (const double step : {0.1, 0.2}) {
+        if (!done) done = try_along(origin, by_radius_, step, &Perturb_report_3::by_radius);
+        if (!done) done = try_along(origin, by_volume_, step, &Perturb_report_3::by_volume);
       }
-    if (std::none_of(places_.begin(), places_.end(), [this](const Place& p) { return p.measure <= enough_; }))
-      search(origin, options_.random_reach, trials);
+    if (!done) search(origin, options_.random_reach, trials);
     keep_best_places();
   }
 
-  void try_along(const Point& origin, const Vector& direction, double step, std::size_t Perturb_report_3::*kind)
+  bool try_along(const Point& origin, const Vector& direction, double step, std::size_t Perturb_report_3::*kind)
   {
     const double length = std::sqrt(CGAL::to_double(direction.squared_length()));
-    if (!(length > 0) || !std::isfinite(length)) return;
-    try_at(origin + (step * reach_ / length) * direction, kind);
+    if (!(length > 0) || !std::isfinite(length)) return false;
+    return try_at(origin + (step * reach_ / length) * direction, kind) <= enough_;
   }
 
   /// Random places around a center, every other one closer and closer around the best so far, until one is good.
@@ -293,6 +295,12 @@ private:
   {
     double best = limit_, radius = reach;
     Point at = center;
+    for (const Place& p : places_)
+      if (p.measure < best) {
+        best = p.measure;
+        at = p.point;
+        radius = 0.3 * reach;
+      }
     for (int k = 0; k < trials; ++k) {
       const bool near_best = k % 2 == 1 && best < limit_;
       const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
