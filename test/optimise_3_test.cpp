@@ -478,6 +478,25 @@ TEST_CASE("the whole run is the same to the last bit, also for several threads")
   }
 }
 
+TEST_CASE("motions and scalings of the input change the angles reached by little")
+{
+  const Surface torus = surfaces::torus(48, 24);
+  const auto reached = [](const Surface& surface, double scale) {
+    Options options;
+    options.min_dihedral_angle = 18;
+    const auto [mesh, report] = weft::make_mesh_3(oracle_of(surface), criteria_of(0.3 * scale, 0.02 * scale), options);
+    CHECK(report.ok());
+    return report.smallest_dihedral;
+  };
+  const double first = reached(torus, 1);
+  CHECK(first >= 18);
+  Surface turned = torus;
+  for (Point& p : turned.points) p = Point(0.6 * p.x() - 0.8 * p.y(), 0.8 * p.x() + 0.6 * p.y(), p.z()); // a rotation
+  CHECK(std::abs(reached(turned, 1) - first) < 3);
+  for (const double scale : {1e-6, 1e6})
+    CHECK(std::abs(reached(surfaces::moved(torus, scale, 3 * scale, -scale, scale), scale) - first) < 3);
+}
+
 TEST_CASE("a run cancelled at any call of the visitor leaves a valid mesh and says so")
 {
   const Oracle oracle = oracle_of(surfaces::cylinder(24));

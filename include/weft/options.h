@@ -71,7 +71,9 @@ struct Mesh_options_3
   /// Sweeps of Natural ODT smoothing, which keeps all criteria; 0: none. With 3 / 6 / 20 the elephant ends with 3325 /
   /// 3229 / 3253 vertices, in 3.3 / 3.1 / 3.7 s.
   int smoothing_sweeps = 6;
-  double min_dihedral_angle = 20; ///< smallest dihedral angle in degrees to perturb slivers for; 0: no perturbation
+  /// Smallest dihedral angle in degrees to perturb slivers for; 0: no perturbation; 90: as far as it goes, which takes
+  /// minutes without a `time_limit`, and which that limit may end without the run counting as stopped early.
+  double min_dihedral_angle = 20;
   double size_floor = 0; ///< no Steiner point closer to a vertex, in the input's units; 0: chosen from the criteria
   bool lattice = true;   ///< fill thick parts with a body-centred cubic lattice where the size is constant
   double initial_relaxation = 2;       ///< factor by which criteria are loosened for the first mesh

@@ -239,7 +239,7 @@ private:
     report_.smoothed_smallest_dihedral = result.before;
     report_.perturbed = result.by_radius + result.by_volume + result.by_chance;
     report_.perturb_insertions = result.insertions;
-    may_go_on();
+    if (options_.min_dihedral_angle < as_far_as_it_goes) may_go_on();
   }
 
   bool stop(Stop_reason reason)
@@ -288,6 +288,7 @@ private:
   // from the boundary: 16364, 15269, 14737, 14720; without a lattice 24060.
   static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.5;
   static constexpr std::size_t most_seeds = 40;
+  static constexpr double as_far_as_it_goes = 70.53; ///< no angle to reach, so that time may well end the run
 
   const Oracle& oracle_;
   const Criteria_3<Kernel>& criteria_;
