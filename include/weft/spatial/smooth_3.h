@@ -322,9 +322,7 @@ private:
       bool helps = false;
       for (const int id : element)
         if (id >= 0) helps = shorten(id) || helps;
-      if (helps) continue;
-      for (const int id : element)
-        if (id >= 0) shorten_around(id, shorten);
+      if (!helps) shorten_around(element, shorten);
     }
     if (shortened.empty() || round >= most_rounds) // not seen to end so far
       for (const int id : ids_) shorten(id);
@@ -334,13 +332,29 @@ private:
     return shortened;
   }
 
+  /// Ring by ring around an element, until there is something to shorten: what it is like depends on its neighbours,
+  /// too.
   template <class Shorten>
-  void shorten_around(int id, const Shorten& shorten)
+  void shorten_around(const typename Criteria_guard_3<Restricted>::Element& element, const Shorten& shorten)
   {
-    neighbours_.clear();
-    mesh_.triangulation().finite_adjacent_vertices(vertex(id), std::back_inserter(neighbours_));
-    for (const Vertex_handle w : neighbours_)
-      if (w->id() >= 0) shorten(w->id());
+    std::vector<int> ring, next;
+    for (const int id : element)
+      if (id >= 0) ring.push_back(id);
+    for (int k = 0; k < most_rings; ++k) {
+      next.clear();
+      for (const int id : ring) {
+        neighbours_.clear();
+        mesh_.triangulation().finite_adjacent_vertices(vertex(id), std::back_inserter(neighbours_));
+        for (const Vertex_handle w : neighbours_)
+          if (w->id() >= 0) next.push_back(w->id());
+      }
+      std::sort(next.begin(), next.end());
+      next.erase(std::unique(next.begin(), next.end()), next.end());
+      bool helps = false;
+      for (const int id : next) helps = shorten(id) || helps;
+      if (helps) return;
+      ring.swap(next);
+    }
   }
 
   Point part_of_the_way(const Point& from, const Point& to, double part, const Vertex_location_3& at) const
@@ -376,7 +390,7 @@ private:
 
   static constexpr double degree = 3.14159265358979323846 / 180;
   static constexpr double least_relaxation = 0.1, least_step = 0.05, least_part = 0.25;
-  static constexpr int most_rounds = 20;
+  static constexpr int most_rounds = 20, most_rings = 4;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   Restricted& mesh_;
