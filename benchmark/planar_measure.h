@@ -6,9 +6,9 @@
 #ifndef WEFT_BENCHMARK_PLANAR_MEASURE_H
 #define WEFT_BENCHMARK_PLANAR_MEASURE_H
 
-#include <CGAL/number_utils.h>
+#include "user_time.h"
 
-#include <sys/resource.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
@@ -19,14 +19,6 @@
 #include <vector>
 
 namespace benchmark {
-
-/// User CPU seconds of this process so far; or of the processes that it has waited for.
-inline double user_seconds(int who = RUSAGE_SELF)
-{
-  rusage usage;
-  getrusage(who, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
 
 inline double median(std::vector<double> values)
 {

@@ -83,17 +83,18 @@ private:
 };
 
 /// Calls `run(measures)` in a child process, which is killed after the time limit.
-template <class Run>
-Spatial_measures in_child(const Run& run, unsigned time_limit)
+/// \tparam Measures plain numbers and `failure`.
+template <class Measures = Spatial_measures, class Run>
+Measures in_child(const Run& run, unsigned time_limit)
 {
-  static_assert(std::is_trivially_copyable_v<Spatial_measures>);
+  static_assert(std::is_trivially_copyable_v<Measures>);
   int ends[2];
   std::cout.flush();
   malloc_trim(0); // else the child would first use up what the parent has freed
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no child process");
-  Spatial_measures m;
+  Measures m;
   if (child == 0) {
     close(ends[0]);
     alarm(time_limit);
@@ -130,22 +131,29 @@ inline void measure(const weft::Tetrahedral_mesh_3<Spatial_kernel>& mesh, const 
   m.hausdorff = weft::hausdorff_3(mesh, input.complex.points, input.complex.triangles).two_sided();
 }
 
-/// \param thorough whether the mesh itself is measured, besides counts, time and memory.
-inline void run_weft(const weft::Polyhedral_oracle_3<Spatial_kernel>& oracle, const Spatial_input& input,
-                     const Bounds& bounds, bool thorough, Spatial_measures& m)
+/// The bounds in weft's terms.
+inline weft::Criteria_3<Spatial_kernel> weft_criteria(const Spatial_input& input, const Bounds& bounds)
 {
   weft::Criteria_3<Spatial_kernel> criteria;
   criteria.size = bounds.size;
   criteria.approximation = bounds.approximation;
   criteria.facet_shape = criteria.cell_shape = bounds.shape;
   criteria.topology = input.is_creased();
+  return criteria;
+}
+
+/// \param thorough whether the mesh itself is measured, besides counts, time and memory.
+inline void run_weft(const weft::Polyhedral_oracle_3<Spatial_kernel>& oracle, const Spatial_input& input,
+                     const Bounds& bounds, const weft::Mesh_options_3& options, bool thorough, Spatial_measures& m)
+{
+  const weft::Criteria_3<Spatial_kernel> criteria = weft_criteria(input, bounds);
   const Gauge gauge;
-  const auto result = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement());
+  const auto result = weft::make_mesh_3(oracle, criteria, options);
   gauge.stop(m);
   const weft::Mesh_report_3& report = result.report;
   m.vertices = static_cast<double>(report.vertices);
   m.cells = static_cast<double>(report.cells);
-  m.criteria_hold = report.ok();
+  m.criteria_hold = report.bad() == 0; // a run that the clock ended may have met them, too
   m.segments = static_cast<double>(report.segment_queries);
   m.locations = static_cast<double>(report.location_queries);
   m.skipped = static_cast<double>(report.skipped_queries);
@@ -233,10 +241,19 @@ public:
     return run;
   }
 
+  const Spatial_input& input() const { return input_; }
+  const weft::Polyhedral_oracle_3<Spatial_kernel>& oracle() const { return oracle_; }
+  const Cgal_domain& cgal_domain() const { return cgal_; }
+  unsigned time_limit() const { return time_limit_; }
+
 private:
   Spatial_measures weft(const Bounds& bounds, bool thorough) const
   {
-    return in_child([&](Spatial_measures& m) { run_weft(oracle_, input_, bounds, thorough, m); }, time_limit_);
+    return in_child(
+        [&](Spatial_measures& m) {
+          run_weft(oracle_, input_, bounds, weft::Mesh_options_3::refinement(), thorough, m);
+        },
+        time_limit_);
   }
 
   Spatial_measures cgal(const Bounds& bounds, double edge_size, bool thorough) const

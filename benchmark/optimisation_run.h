@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The measurements of spatial optimisation, one domain at a time, each in a process of its own: the whole run, sweeps
+// of the three smoothers, what one sweep costs, perturbation by direction, and how far perturbation goes.
+
+#ifndef WEFT_BENCHMARK_OPTIMISATION_RUN_H
+#define WEFT_BENCHMARK_OPTIMISATION_RUN_H
+
+#include "optimisation_models.h"
+#include "optimisation_peers.h"
+#include "spatial_run.h"
+#include "user_time.h"
+
+#include <weft/spatial/dihedral_angles_3.h>
+#include <weft/spatial/extract_mesh_3.h>
+#include <weft/spatial/perturb_slivers_3.h>
+#include <weft/spatial/smooth_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace benchmark {
+
+using Weft_mesh = weft::Restricted_delaunay_3<weft::Polyhedral_oracle_3<Spatial_kernel>>;
+
+// ---- The whole run
+
+/// weft's refinement, default run and run as far as it goes; CGAL's refinement and its chain of optimisers.
+struct Whole_run
+{
+  std::string input;
+  Family family;
+  Bounds bounds;
+  Spatial_measures refined, whole, farthest, cgal_refined, cgal_chain;
+
+  bool failed() const { return refined.failed() || whole.failed() || cgal_refined.failed(); }
+};
+
+inline Spatial_measures weft_in_child(const Spatial_domain& domain, const Bounds& bounds,
+                                      const weft::Mesh_options_3& options)
+{
+  return in_child([&](Spatial_measures& m) { run_weft(domain.oracle(), domain.input(), bounds, options, true, m); },
+                  domain.time_limit());
+}
+
+/// CGAL's refinement, with or without ODT and a perturbation for 12 degrees after it.
+inline Spatial_measures cgal_in_child(const Spatial_domain& domain, const Bounds& bounds, bool optimise)
+{
+  const auto run = [&](Spatial_measures& m) {
+    const Gauge gauge;
+    Cgal_complex complex = mesh_with_cgal(domain.cgal_domain(), bounds, bounds.size);
+    if (optimise) {
+      odt_with_cgal(complex, domain.cgal_domain());
+      perturb_with_cgal(complex, domain.cgal_domain(), 12);
+    }
+    gauge.stop(m);
+    const auto mesh = arrays(complex);
+    m.vertices = static_cast<double>(mesh.points.size());
+    m.cells = static_cast<double>(mesh.cells.size());
+    measure(mesh, domain.input(), m);
+  };
+  return in_child(run, domain.time_limit());
+}
+
+/// \param seconds wall time for the run as far as it goes.
+inline Whole_run whole_run(const Spatial_domain& domain, Family family, const Bounds& bounds, double seconds)
+{
+  Whole_run run{domain.input().name, family, bounds, {}, {}, {}, {}, {}};
+  run.refined = weft_in_child(domain, bounds, weft::Mesh_options_3::refinement());
+  run.whole = weft_in_child(domain, bounds, {});
+  weft::Mesh_options_3 far;
+  far.min_dihedral_angle = 90;
+  far.time_limit = seconds;
+  run.farthest = weft_in_child(domain, bounds, far);
+  run.cgal_refined = cgal_in_child(domain, bounds, false);
+  run.cgal_chain = cgal_in_child(domain, bounds, true);
+  return run;
+}
+
+// ---- Sweeps
+
+inline Weft_mesh refined_mesh(const Spatial_domain& domain, const Bounds& bounds)
+{
+  return weft::make_mesh_3(domain.oracle(), weft_criteria(domain.input(), bounds), weft::Mesh_options_3::refinement())
+      .mesh;
+}
+
+/// Cells with a dihedral angle below so many degrees.
+inline double cells_below(const Weft_mesh& mesh, double degrees)
+{
+  const double cosine = std::cos(degrees * std::acos(-1.) / 180);
+  double count = 0;
+  for (const auto c : mesh.triangulation().finite_cell_handles())
+    count +=
+        c->subdomain() != 0 && weft::cosine_of_smallest_dihedral(c->vertex(0)->point(), c->vertex(1)->point(),
+                                                                 c->vertex(2)->point(), c->vertex(3)->point()) > cosine;
+  return count;
+}
+
+/// Cells below 10 degrees before and after 20 and 100 sweeps.
+struct Sweep_counts
+{
+  double before = -1, after_20 = -1, after_100 = -1, cells = -1;
+  char failure[200] = "";
+};
+
+template <class Smoother>
+Sweep_counts sweep_counts(const Spatial_domain& domain, const Bounds& bounds, bool keep_criteria)
+{
+  const auto run = [&](Sweep_counts& m) {
+    const auto criteria = weft_criteria(domain.input(), bounds);
+    Weft_mesh mesh = refined_mesh(domain, bounds);
+    m.before = cells_below(mesh, 10);
+    weft::Smooth_options_3 options;
+    options.keep_criteria = keep_criteria;
+    options.max_sweeps = 20;
+    weft::smooth_3(mesh, criteria, options, Smoother());
+    m.after_20 = cells_below(mesh, 10);
+    options.max_sweeps = 80;
+    weft::smooth_3(mesh, criteria, options, Smoother());
+    m.after_100 = cells_below(mesh, 10);
+    m.cells = static_cast<double>(weft::tetrahedral_mesh(mesh).cells.size());
+  };
+  return in_child<Sweep_counts>(run, domain.time_limit());
+}
+
+/// All smoothers on one domain; [0]: criteria are kept, [1]: they aren't.
+struct Smoother_run
+{
+  std::string input;
+  Sweep_counts nodt[2], odt[2], lloyd[2];
+};
+
+inline Smoother_run smoother_run(const Spatial_domain& domain, const Bounds& bounds)
+{
+  Smoother_run run;
+  run.input = domain.input().name;
+  for (int free = 0; free < 2; ++free) {
+    run.nodt[free] = sweep_counts<weft::Natural_odt_3>(domain, bounds, free == 0);
+    run.odt[free] = sweep_counts<weft::Odt_3>(domain, bounds, free == 0);
+    run.lloyd[free] = sweep_counts<weft::Lloyd_3>(domain, bounds, free == 0);
+  }
+  return run;
+}
+
+// ---- The cost of a sweep
+
+/// One sweep against a Delaunay triangulation of the same points.
+struct Sweep_cost
+{
+  double seconds = 0, delaunay = 0; ///< user time
+  double sizing = 0, positions = 0; ///< shares of wall time
+  double moving = 0, flips = 0, rebuilding = 0, labels = 0;
+  double in_place = 0, one_by_one = 0, rebuilt = 0, flipped = 0; ///< vertices, and flips
+
+  double ratio() const { return seconds / delaunay; }
+};
+
+struct Sweep_costs
+{
+  double vertices = -1;
+  Sweep_cost first, late; ///< on the refined mesh; after 30 sweeps
+  double cgal = -1;       ///< one sweep of CGAL's ODT against Delaunay of its points
+  char failure[200] = "";
+};
+
+inline double delaunay_seconds(const Weft_mesh& mesh)
+{
+  std::vector<Spatial_kernel::Point_3> points;
+  for (const auto v : mesh.vertices()) points.push_back(v->point());
+  const int times = static_cast<int>(std::max(3., 2e5 / static_cast<double>(points.size())));
+  const double start = user_seconds();
+  delaunay_with_cgal(points, times);
+  return (user_seconds() - start) / times;
+}
+
+/// So many sweeps, one by one, on average.
+inline Sweep_cost sweep_cost(Weft_mesh& mesh, const weft::Criteria_3<Spatial_kernel>& criteria, int sweeps)
+{
+  weft::Smooth_options_3 options;
+  options.keep_criteria = false;
+  options.max_sweeps = 1;
+  Sweep_cost cost;
+  cost.delaunay = delaunay_seconds(mesh);
+  double wall = 0;
+  for (int i = 0; i < sweeps; ++i) {
+    const double start = user_seconds();
+    const weft::Smooth_report_3 report = weft::smooth_3(mesh, criteria, options);
+    cost.seconds += (user_seconds() - start) / sweeps;
+    const weft::Relocation_counts_3& r = report.relocations;
+    wall += report.seconds;
+    cost.sizing += report.sizing_seconds;
+    cost.positions += report.position_seconds;
+    cost.moving += r.moving_seconds;
+    cost.flips += r.flipping_seconds;
+    cost.rebuilding += r.rebuilding_seconds;
+    cost.labels += r.classifying_seconds;
+    cost.in_place += static_cast<double>(r.in_place) / sweeps;
+    cost.one_by_one += static_cast<double>(r.one_by_one) / sweeps;
+    cost.rebuilt += static_cast<double>(r.rebuilt) / sweeps;
+    cost.flipped += static_cast<double>(r.flips) / sweeps;
+  }
+  for (double* share : {&cost.sizing, &cost.positions, &cost.moving, &cost.flips, &cost.rebuilding, &cost.labels})
+    *share /= wall;
+  return cost;
+}
+
+inline void run_sweep_costs(const Spatial_domain& domain, const Bounds& bounds, bool with_cgal, Sweep_costs& m)
+{
+  const auto criteria = weft_criteria(domain.input(), bounds);
+  Weft_mesh mesh = refined_mesh(domain, bounds);
+  m.vertices = static_cast<double>(mesh.vertices().size());
+  m.first = sweep_cost(mesh, criteria, 1);
+  weft::Smooth_options_3 options;
+  options.keep_criteria = false;
+  options.max_sweeps = 29;
+  weft::smooth_3(mesh, criteria, options);
+  m.late = sweep_cost(mesh, criteria, 5);
+  if (!with_cgal) return;
+  Cgal_complex complex = mesh_with_cgal(domain.cgal_domain(), bounds, bounds.size);
+  std::vector<Spatial_kernel::Point_3> points;
+  for (const auto v : complex.triangulation().finite_vertex_handles()) points.push_back(v->point().point());
+  const double begin = user_seconds();
+  delaunay_with_cgal(points, 5);
+  const double middle = user_seconds();
+  odt_with_cgal(complex, domain.cgal_domain(), 1);
+  m.cgal = (user_seconds() - middle) / ((middle - begin) / 5);
+}
+
+/// The medians, by ratio, of three runs.
+inline Sweep_costs sweep_costs(const Spatial_domain& domain, const Bounds& bounds)
+{
+  std::vector<Sweep_costs> runs;
+  for (int i = 0; i < 3; ++i)
+    runs.push_back(in_child<Sweep_costs>([&](Sweep_costs& m) { run_sweep_costs(domain, bounds, i == 0, m); },
+                                         domain.time_limit()));
+  for (const Sweep_costs& r : runs)
+    if (r.failure[0]) return r;
+  Sweep_costs result = runs[0]; // has CGAL's
+  for (auto cost : {&Sweep_costs::first, &Sweep_costs::late}) {
+    std::sort(runs.begin(), runs.end(),
+              [&](const Sweep_costs& a, const Sweep_costs& b) { return (a.*cost).ratio() < (b.*cost).ratio(); });
+    result.*cost = runs[1].*cost;
+  }
+  return result;
+}
+
+// ---- Perturbation
+
+struct Perturb_cost
+{
+  double before = -1, after = -1, seconds = 0; ///< degrees; user time
+  double by_radius = 0, by_volume = 0, by_chance = 0, insertions = 0, removals = 0;
+  char failure[200] = "";
+};
+
+struct Perturb_run
+{
+  std::string input;
+  Perturb_cost combined, random;
+};
+
+/// Optimises but for the perturbation, then perturbs.
+inline Perturb_cost perturb_cost(const Spatial_domain& domain, const Bounds& bounds, double target, double limit,
+                                 weft::Perturb_directions_3 directions)
+{
+  const auto run = [&](Perturb_cost& m) {
+    const auto criteria = weft_criteria(domain.input(), bounds);
+    weft::Mesh_options_3 unperturbed;
+    unperturbed.min_dihedral_angle = 0;
+    Weft_mesh mesh = weft::make_mesh_3(domain.oracle(), criteria, unperturbed).mesh;
+    weft::Perturb_options_3 options;
+    options.target = target;
+    options.time_limit = limit;
+    options.directions = directions;
+    const double start = user_seconds();
+    const weft::Perturb_report_3 report = weft::perturb_slivers_3(mesh, criteria, options);
+    m.seconds = user_seconds() - start;
+    m.before = report.before;
+    m.after = report.after;
+    m.by_radius = static_cast<double>(report.by_radius);
+    m.by_volume = static_cast<double>(report.by_volume);
+    m.by_chance = static_cast<double>(report.by_chance);
+    m.insertions = static_cast<double>(report.insertions);
+    m.removals = static_cast<double>(report.removals);
+  };
+  return in_child<Perturb_cost>(run, domain.time_limit());
+}
+
+inline Perturb_run perturb_run(const Spatial_domain& domain, const Bounds& bounds, double limit)
+{
+  using Directions = weft::Perturb_directions_3;
+  return {domain.input().name, perturb_cost(domain, bounds, 20, limit, Directions::combined),
+          perturb_cost(domain, bounds, 20, limit, Directions::random)};
+}
+
+// ---- As far as it goes
+
+/// A row of the thesis' table 3.1: smallest dihedral angles.
+struct Best_angles
+{
+  double before = -1, combined = -1, random = -1, exuded = -1;
+  char failure[200] = "";
+};
+
+enum class Preparation
+{
+  none,
+  lloyd,
+  odt
+};
+
+/// The three ways in one process, each from its own refined and smoothed mesh.
+inline Best_angles best_angles(const Spatial_domain& domain, const Bounds& bounds, Preparation preparation,
+                               double limit)
+{
+  const auto criteria = weft_criteria(domain.input(), bounds);
+  const auto prepared = [&] {
+    Weft_mesh mesh = refined_mesh(domain, bounds);
+    weft::Smooth_options_3 options;
+    options.keep_criteria = false;
+    options.max_sweeps = 50;
+    if (preparation == Preparation::lloyd) weft::smooth_3(mesh, criteria, options, weft::Lloyd_3());
+    if (preparation == Preparation::odt) weft::smooth_3(mesh, criteria, options, weft::Odt_3());
+    return mesh;
+  };
+  const auto perturbed = [&](weft::Perturb_directions_3 directions) {
+    Weft_mesh mesh = prepared();
+    weft::Perturb_options_3 options;
+    options.target = 90;
+    options.time_limit = limit;
+    options.directions = directions;
+    return weft::perturb_slivers_3(mesh, criteria, options);
+  };
+  const auto run = [&](Best_angles& m) {
+    const weft::Perturb_report_3 combined = perturbed(weft::Perturb_directions_3::combined);
+    m.before = combined.before;
+    m.combined = combined.after;
+    m.random = perturbed(weft::Perturb_directions_3::random).after;
+    m.exuded = smallest_dihedral(exude_with_cgal(prepared(), limit));
+  };
+  return in_child<Best_angles>(run, domain.time_limit());
+}
+
+} // namespace benchmark
+
+#endif // WEFT_BENCHMARK_OPTIMISATION_RUN_H
