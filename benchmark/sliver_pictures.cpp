@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Pictures of the slivers in a mesh, and of its dihedral angles, at every stage of optimisation (as figures 3.6, 3.8
-// and 3.12 of Tournois 2009): refined; refined and smoothed by Lloyd's iteration; by Natural ODT; and perturbed after
-// that. The boundary is drawn as glass, cells with small dihedral angles in red inside. One SVG file.
+// and 3.12 of Tournois 2009): refined; refined and smoothed by Lloyd's iteration; by Natural ODT; and by the
+// whole of make_mesh_3(), perturbation last. The boundary is drawn as glass, cells with small dihedral angles in red
+// inside. One SVG file.
 //
 //   sliver_pictures [--below DEG] [--target DEG] [--limit SECONDS] [--sweeps N] [--size L] [--approximation E]
 //                   [--sharp-angle DEG] [--azimuth DEG] [--elevation DEG] [--output FILE.svg] FILE
 //
 // The surface is scaled to a longest side of 1. --below: angle of what counts as a sliver, 10 unless given. --target:
-// of the perturbation, 20; --limit: its wall time, 60. --sweeps: of smoothing, 100. --azimuth, --elevation: of the
-// view.
+// of the perturbation, 20; --limit: wall time of make_mesh_3(), 60. --sweeps: of smoothing, 100. --azimuth,
+// --elevation: of the view.
 
 #include "planar_table.h"
 #include "spatial_inputs.h"
@@ -20,7 +21,6 @@
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/extract_mesh_3.h>
-#include <weft/spatial/perturb_slivers_3.h>
 #include <weft/spatial/quality_3.h>
 #include <weft/spatial/smooth_3.h>
 
@@ -112,11 +112,11 @@ std::vector<Stage_picture> make_stages(const Oracle& oracle, const Arguments& a)
   Restricted mesh = refined();
   weft::smooth_3(mesh, criteria, smoothing);
   stages.push_back({"and smoothed, Natural ODT", weft::tetrahedral_mesh(mesh)});
-  weft::Perturb_options_3 perturbation;
-  perturbation.target = a["target"];
-  perturbation.time_limit = a["limit"];
-  weft::perturb_slivers_3(mesh, criteria, perturbation);
-  stages.push_back({"Natural ODT, and perturbed", weft::tetrahedral_mesh(mesh)});
+  weft::Mesh_options_3 options;
+  options.min_dihedral_angle = a["target"];
+  options.time_limit = a["limit"];
+  stages.push_back(
+      {"make_mesh_3 as it is: perturbed", weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).mesh)});
   return stages;
 }
 

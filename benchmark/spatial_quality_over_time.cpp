@@ -17,9 +17,9 @@
 #include "quality_plot.h"
 #include "user_time.h"
 
-#include <weft/spatial/quality_3.h>
 #include <weft/spatial/refine_3.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
@@ -73,26 +73,47 @@ public:
   double seconds() const { return watch_.seconds(); }
 
   /// \param complete whether the criteria are known to hold.
-  void add(const weft::Tetrahedral_mesh_3<Spatial_kernel>& mesh, double now, bool complete)
-  {
-    if (mesh.cells.empty()) return;
-    const weft::Quality_3 q = weft::measure_quality_3(mesh);
-    series_.samples.push_back(
-        {now, {q.smallest_dihedral.degrees, std::log10(1. + static_cast<double>(q.cells_below(15)))}, complete});
-    last_ = now;
-  }
-
   template <class Mesh>
   bool operator()(const Mesh& mesh, bool complete = true, bool always = false)
   {
     const double now = watch_.seconds();
-    if (always || now > 1.023 * last_) watch_.pause([&] { add(arrays_of(mesh), now, complete); });
+    if (always || now > 1.023 * last_) watch_.pause([&] { add(mesh, now, complete); });
     return true;
   }
 
 private:
-  static auto arrays_of(const Weft_mesh& mesh) { return weft::tetrahedral_mesh(mesh); }
-  static auto arrays_of(const Cgal_complex& complex) { return arrays(complex); }
+  template <class Mesh>
+  void add(const Mesh& mesh, double now, bool complete)
+  {
+    double worst = -1, below_15 = 0;
+    for_cells(mesh, [&](double cosine) {
+      worst = std::max(worst, cosine);
+      below_15 += cosine > std::cos(15 * std::acos(-1.) / 180);
+    });
+    if (worst < 0) return; // no cells
+    const double smallest = std::acos(std::min(1., worst)) * 180 / std::acos(-1.);
+    series_.samples.push_back({now, {smallest, std::log10(1 + below_15)}, complete});
+    last_ = now;
+  }
+
+  /// Calls `visit(cosine of the smallest dihedral angle)` for all cells. While a visitor is called, the mesh may have
+  /// gaps in its list of vertices; so only cells are looked at.
+  template <class Visit>
+  static void for_cells(const Weft_mesh& mesh, const Visit& visit)
+  {
+    for (const auto c : mesh.triangulation().finite_cell_handles())
+      if (c->subdomain() != 0)
+        visit(weft::cosine_of_smallest_dihedral(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                                                c->vertex(3)->point()));
+  }
+  template <class Visit>
+  static void for_cells(const Cgal_complex& mesh, const Visit& visit)
+  {
+    for (auto c = mesh.cells_in_complex_begin(); c != mesh.cells_in_complex_end(); ++c) {
+      const auto point = [&](int i) { return c->vertex(i)->point().point(); };
+      visit(weft::cosine_of_smallest_dihedral(point(0), point(1), point(2), point(3)));
+    }
+  }
 
   Series& series_;
   Stopwatch watch_;
