@@ -7,7 +7,7 @@
 //                [--json FILE] MODELS_DIR
 //
 // Tables: a whole runs, b smoothers, c a sweep, d directions of perturbation, e as far as perturbation goes; all unless
-// said otherwise. --farthest: wall time of a run as far as it goes, 60 unless given; 20 with --quick, which also
+// said otherwise. --farthest: user time of a run as far as it goes, 60 unless given; 20 with --quick, which also
 // leaves out all but three models of tables b to d. The time limit is that of one process, 900 unless given.
 
 #include "optimisation_figures.h"
@@ -271,8 +271,7 @@ public:
   {
     std::cout << "# weft's optimisation in space, CGAL " << CGAL_VERSION_STR
               << "\n\nUser seconds. Default: without options, to 20°. Farthest: to 90°, ended after "
-              << text(a_.seconds(), 0)
-              << " s of wall time. CGAL's chain: refinement, ODT, perturbation to 12°. H is the "
+              << text(a_.seconds(), 0) << " user seconds. CGAL's chain: refinement, ODT, perturbation to 12°. H is the "
               << "two-sided Hausdorff distance, ε the bound of approximation, on the sphere the longest edge.\n";
     std::vector<Whole_run> whole;
     table('a', "Whole runs", whole_head(), true, [&](const Model& model, const Spatial_domain& domain) {

@@ -25,6 +25,28 @@ namespace benchmark {
 
 using Weft_mesh = weft::Restricted_delaunay_3<weft::Polyhedral_oracle_3<Spatial_kernel>>;
 
+/// Ends a run after so many user seconds, at the next question whether to go on: on a busy machine wall time would end
+/// it sooner. As a last resort, wall time does, after ten times as many.
+class User_limit
+{
+public:
+  explicit User_limit(double seconds) : seconds_(seconds), end_(user_seconds() + seconds) {}
+
+  void limit(weft::Mesh_options_3& options) const
+  {
+    options.time_limit = 10 * seconds_;
+    options.visitor = [end = end_](const weft::Progress&) { return user_seconds() < end; };
+  }
+  void limit(weft::Perturb_options_3& options) const
+  {
+    options.time_limit = 10 * seconds_;
+    options.go_on = [end = end_](double) { return user_seconds() < end; };
+  }
+
+private:
+  double seconds_, end_;
+};
+
 // ---- The whole run
 
 /// weft's refinement, default run and run as far as it goes; CGAL's refinement and its chain of optimisers.
@@ -38,11 +60,15 @@ struct Whole_run
   bool failed() const { return refined.failed() || whole.failed() || cgal_refined.failed(); }
 };
 
-inline Spatial_measures weft_in_child(const Spatial_domain& domain, const Bounds& bounds,
-                                      const weft::Mesh_options_3& options)
+/// \param seconds user time; 0: any.
+inline Spatial_measures weft_in_child(const Spatial_domain& domain, const Bounds& bounds, weft::Mesh_options_3 options,
+                                      double seconds = 0)
 {
-  return in_child([&](Spatial_measures& m) { run_weft(domain.oracle(), domain.input(), bounds, options, true, m); },
-                  domain.time_limit());
+  const auto run = [&](Spatial_measures& m) {
+    if (seconds > 0) User_limit(seconds).limit(options);
+    run_weft(domain.oracle(), domain.input(), bounds, options, true, m);
+  };
+  return in_child(run, domain.time_limit());
 }
 
 /// CGAL's refinement, with or without ODT and a perturbation for 12 degrees after it.
@@ -64,7 +90,7 @@ inline Spatial_measures cgal_in_child(const Spatial_domain& domain, const Bounds
   return in_child(run, domain.time_limit());
 }
 
-/// \param seconds wall time for the run as far as it goes.
+/// \param seconds user time for the run as far as it goes.
 inline Whole_run whole_run(const Spatial_domain& domain, Family family, const Bounds& bounds, double seconds)
 {
   Whole_run run{domain.input().name, family, bounds, {}, {}, {}, {}, {}};
@@ -72,8 +98,7 @@ inline Whole_run whole_run(const Spatial_domain& domain, Family family, const Bo
   run.whole = weft_in_child(domain, bounds, {});
   weft::Mesh_options_3 far;
   far.min_dihedral_angle = 90;
-  far.time_limit = seconds;
-  run.farthest = weft_in_child(domain, bounds, far);
+  run.farthest = weft_in_child(domain, bounds, far, seconds);
   run.cgal_refined = cgal_in_child(domain, bounds, false);
   run.cgal_chain = cgal_in_child(domain, bounds, true);
   return run;
@@ -273,7 +298,7 @@ inline Perturb_cost perturb_cost(const Spatial_domain& domain, const Bounds& bou
     Weft_mesh mesh = weft::make_mesh_3(domain.oracle(), criteria, unperturbed).mesh;
     weft::Perturb_options_3 options;
     options.target = target;
-    options.time_limit = limit;
+    User_limit(limit).limit(options);
     options.directions = directions;
     const double start = user_seconds();
     const weft::Perturb_report_3 report = weft::perturb_slivers_3(mesh, criteria, options);
@@ -330,7 +355,7 @@ inline Best_angles best_angles(const Spatial_domain& domain, const Bounds& bound
     Weft_mesh mesh = prepared();
     weft::Perturb_options_3 options;
     options.target = 90;
-    options.time_limit = limit;
+    User_limit(limit).limit(options);
     options.directions = directions;
     return weft::perturb_slivers_3(mesh, criteria, options);
   };
