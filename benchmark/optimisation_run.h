@@ -337,6 +337,15 @@ enum class Preparation
   odt
 };
 
+/// What is left to keep after smoothing that kept no criterion, as in the thesis.
+inline weft::Criteria_3<Spatial_kernel> topology_alone()
+{
+  weft::Criteria_3<Spatial_kernel> criteria;
+  criteria.size = 1e9;
+  criteria.facet_shape = criteria.cell_shape = 0;
+  return criteria;
+}
+
 /// The three ways in one process, each from its own refined and smoothed mesh.
 inline Best_angles best_angles(const Spatial_domain& domain, const Bounds& bounds, Preparation preparation,
                                double limit)
@@ -357,7 +366,7 @@ inline Best_angles best_angles(const Spatial_domain& domain, const Bounds& bound
     options.target = 90;
     User_limit(limit).limit(options);
     options.directions = directions;
-    return weft::perturb_slivers_3(mesh, criteria, options);
+    return weft::perturb_slivers_3(mesh, preparation == Preparation::none ? criteria : topology_alone(), options);
   };
   const auto run = [&](Best_angles& m) {
     const weft::Perturb_report_3 combined = perturbed(weft::Perturb_directions_3::combined);

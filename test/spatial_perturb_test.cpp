@@ -221,7 +221,7 @@ TEST_CASE("moves, insertions and removals can be undone to the last cell")
   for (const Surface& surface : {surfaces::torus(48, 24), surfaces::cylinder(40), surfaces::cube()}) {
     const Oracle oracle = oracle_of(surface);
     const Criteria criteria = criteria_of(0.3, 0.02);
-    auto result = weft::make_mesh_3(oracle, criteria);
+    auto result = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement());
     Restricted& mesh = result.mesh;
     const auto before = cells_of(mesh);
     std::vector<Point> points;
@@ -267,7 +267,7 @@ TEST_CASE("as far as it goes: the smallest angle never falls, and all that held 
                         Case{surfaces::l_shape(), 0.3, 0, 28}}) {
     const Oracle oracle = oracle_of(c.surface);
     const Criteria criteria = criteria_of(c.size, c.approximation);
-    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement());
     REQUIRE(refined.ok());
     const double refined_distance =
         weft::hausdorff_3(weft::tetrahedral_mesh(mesh), oracle.complex().points, oracle.complex().triangles, 5000)
@@ -277,7 +277,7 @@ TEST_CASE("as far as it goes: the smallest angle never falls, and all that held 
     double last = 0;
     int calls = 0;
     options.go_on = [&, &mesh = mesh](double angle) {
-      CHECK(angle >= last);
+      CHECK(angle >= last - 1e-9); // rounding depends on the order of vertices
       last = angle;
       if (calls % 20 == 0) {
         CHECK(weft::measure_quality_3(weft::tetrahedral_mesh(mesh)).smallest_dihedral.degrees ==
@@ -304,7 +304,7 @@ TEST_CASE("equal seeds give equal meshes, other seeds others")
   const Oracle oracle = oracle_of(surfaces::cylinder(40));
   const Criteria criteria = criteria_of(0.4, 0.02);
   const auto run = [&](unsigned seed, weft::Perturb_directions_3 directions) {
-    auto result = weft::make_mesh_3(oracle, criteria);
+    auto result = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement());
     weft::Perturb_options_3 options;
     options.target = 90;
     options.seed = seed;
@@ -329,7 +329,7 @@ TEST_CASE("without time nothing changes, and with little the mesh is sound")
   const Oracle oracle = oracle_of(surfaces::torus(48, 24));
   const Criteria criteria = criteria_of(0.3, 0.02);
   for (const double limit : {0., 0.002, 0.02, 0.2}) {
-    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+    auto [mesh, refined] = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement());
     const auto before = cells_of(mesh);
     weft::Perturb_options_3 options;
     options.target = 90;
@@ -346,7 +346,7 @@ TEST_CASE("a mesh that can't be improved ends the run by itself")
   const Oracle oracle = oracle_of(surfaces::cube());
   Criteria criteria;
   criteria.size = 10; // the eight corners, none of which may move, and hardly anything else
-  auto [mesh, refined] = weft::make_mesh_3(oracle, criteria);
+  auto [mesh, refined] = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement());
   weft::Perturb_options_3 options;
   options.target = 90;
   const auto report = weft::perturb_slivers_3(mesh, criteria, options);

@@ -101,7 +101,7 @@ public:
   const Crease_tracer_3<Triangulation>& creases() const { return tracer_; }
   const Oracle_counts_3& counts() const { return counts_; }
 
-  /// All vertices but those of the box, by id.
+  /// All vertices but those of the box, by id; null for those that `coarsen_3()` has taken away so far while it runs.
   const std::vector<Vertex_handle>& vertices() const { return vertices_; }
 
   /// Records of restricted facets; those with a null cell are unused.

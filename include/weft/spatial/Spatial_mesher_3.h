@@ -172,7 +172,9 @@ private:
     report_.refined_smallest_dihedral = smallest_dihedral();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     begin_stage("refinement after smoothing", Stage::refinement);
-    return refine(1, true);
+    Mesh_report_3 now;
+    internal::count_bad_elements(mesh_, criteria_, size_floor(), now);
+    return now.bad() == 0 || refine(1, true); // refinement also prevents: it would mirror vertices at acute edges
   }
 
   bool coarsen()

@@ -31,7 +31,7 @@ Tetrahedral_mesh_3<typename Oracle::Kernel> tetrahedral_mesh(const Restricted_de
     if (c->subdomain() != 0)
       for (int i = 0; i < 4; ++i) number_of(c->vertex(i)) = used;
   for (const auto v : restricted.vertices()) {
-    if (number_of(v) == unused) continue;
+    if (v == typename Restricted::Vertex_handle() || number_of(v) == unused) continue; // null: while coarsening
     number_of(v) = mesh.points.size();
     mesh.points.push_back(v->point());
     mesh.locations.push_back(v->location());
