@@ -162,7 +162,7 @@ private:
   void interleave()
   {
     const std::size_t n = mesh_.vertices().size();
-    pliant_.set_budget(least_insertions + n / 50, 20 * least_insertions + n / 2);
+    pliant_.set_budget(least_insertions + n / 50, 20 * least_insertions + n / 4);
     for (int round = 0; round < most_rounds; ++round) {
       refine_and_polish(round == 0);
       if (is_stopped()) break;

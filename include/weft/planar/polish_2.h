@@ -172,7 +172,7 @@ private:
   {
     if (!load_star(v)) return false;
     const Point old = v->point();
-    double cost = rank_star(old);
+    double cost = rank_star(CGAL::to_double(old.x()), CGAL::to_double(old.y()));
     const double before = cost;
     if (cost < negligible) return false;
     const Point best = v->constraint() >= 0 ? search_on_constraint(v, cost) : search(v, cost);
@@ -189,20 +189,22 @@ private:
   // Cotangents of 50 and 37 degrees, where a small angle begins to cost and where it costs 1; of 80 and 94 degrees.
   static constexpr double cot_small = 0.839, cot_small_limit = 1.327, cot_large = 0.176, cot_large_limit = -0.070;
 
-  static constexpr double negligible = 0.01;
+  static constexpr double negligible = 0.1;
 
+  /// A face around the vertex that moves. Sizes are those before the search: moves are short against the distance in
+  /// which sizes change.
   struct Star_face
   {
-    Point a, b; // counterclockwise after the vertex
-    std::array<bool, 3> given;
-    double size; // at the centroid before the search: moves are short against the distance in which sizes change
+    double ax, ay, bx, by;     // the other corners, counterclockwise after the vertex
+    double squared_base;       // length of the edge between them
+    double squared_size;       // at the centroid
+    std::array<bool, 3> given; // see `given_angles()`
   };
 
-  /// A constrained edge at the vertex, with the size in its middle before the search.
+  /// A constrained edge at the vertex, with the size in its middle.
   struct Chain_edge
   {
-    Point end;
-    double size;
+    double x, y, squared_size;
   };
 
   static double oversize(double squared_ratio) { return squared_ratio > 1 ? oversize_cost * squared_ratio : 0; }
@@ -220,22 +222,32 @@ private:
     const double px = CGAL::to_double(p.x()), py = CGAL::to_double(p.y());
     const double ax = CGAL::to_double(q.x()) - px, ay = CGAL::to_double(q.y()) - py;
     const double bx = CGAL::to_double(r.x()) - px, by = CGAL::to_double(r.y()) - py;
-    const double doubled = 2 * (ax * by - ay * bx);
+    // squared lengths opposite p, q, r
+    return cost(2 * (ax * by - ay * bx),
+                {(bx - ax) * (bx - ax) + (by - ay) * (by - ay), bx * bx + by * by, ax * ax + ay * ay}, given,
+                size * size);
+  }
+
+  /// \param doubled four times the area.
+  /// \param opposite squared lengths of the edges opposite the corners.
+  static double cost(double doubled, const std::array<double, 3>& opposite, const std::array<bool, 3>& given,
+                     double squared_size)
+  {
     if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
-    const double r2 = ax * ax + ay * ay, q2 = bx * bx + by * by,
-                 p2 = (bx - ax) * (bx - ax) + (by - ay) * (by - ay); // squared lengths opposite p, q, r
-    // Cotangents times `doubled`; only the extreme ones are divided. Dividing all of them took four times as long.
+    const auto [p2, q2, r2] = opposite;
+    // Cotangents times `doubled`; dividing all of them took four times as long. Compilers make other forms of this
+    // loop into branches that are mispredicted, which costs up to half of the time again.
     const std::array<double, 3> scaled{q2 + r2 - p2, p2 + r2 - q2, p2 + q2 - r2};
     double highest = cot_small * doubled, lowest = cot_large * doubled; // of the smallest and the largest angle
     for (int i = 0; i < 3; ++i) {
       if (!given[i]) highest = (std::max)(highest, scaled[i]);
       lowest = (std::min)(lowest, scaled[i]);
     }
-    const double small = (highest / doubled - cot_small) * (1 / (cot_small_limit - cot_small)),
-                 large = (cot_large - lowest / doubled) * (1 / (cot_large - cot_large_limit));
-    const double worse = (std::max)(small, large), w2 = worse * worse, w4 = w2 * w2, cost = w4 * w4;
+    const double small = (highest - cot_small * doubled) * (1 / (cot_small_limit - cot_small)),
+                 large = (cot_large * doubled - lowest) * (1 / (cot_large - cot_large_limit));
+    const double worse = (std::max)(small, large) / doubled, w2 = worse * worse, w4 = w2 * w2, cost = w4 * w4;
     const double longest = (std::max)((std::max)(p2, q2), r2);
-    return longest > size * size ? cost + oversize(longest / (size * size)) : cost;
+    return longest > squared_size ? cost + oversize(longest / squared_size) : cost;
   }
 
   bool load_star(Vertex_handle v)
@@ -248,38 +260,54 @@ private:
       const int i = face->index(v);
       if (face->is_constrained(Triangulation::cw(i))) {
         const Point& q = face->vertex(Triangulation::ccw(i))->point();
-        chain_.push_back({q, mesh_.size(CGAL::midpoint(v->point(), q))});
+        const double size = mesh_.size(CGAL::midpoint(v->point(), q));
+        chain_.push_back({CGAL::to_double(q.x()), CGAL::to_double(q.y()), size * size});
       }
-      if (face->is_in_domain())
-        star_.push_back({face->vertex(Triangulation::ccw(i))->point(), face->vertex(Triangulation::cw(i))->point(),
-                         given_angles(face, i), mesh_.size(face)});
+      if (face->is_in_domain()) star_.push_back(star_face(face, i));
     } while (++face != done);
     return !star_.empty();
   }
 
-  /// Cost with the vertex at p. Puts the most expensive face first: it is what rules out most other places.
-  double rank_star(const Point& p)
+  Star_face star_face(Face_handle f, int i) const
+  {
+    const Point &a = f->vertex(Triangulation::ccw(i))->point(), &b = f->vertex(Triangulation::cw(i))->point();
+    const double ax = CGAL::to_double(a.x()), ay = CGAL::to_double(a.y()), bx = CGAL::to_double(b.x()),
+                 by = CGAL::to_double(b.y());
+    const double size = mesh_.size(f);
+    return {ax, ay, bx, by, (bx - ax) * (bx - ax) + (by - ay) * (by - ay), size * size, given_angles(f, i)};
+  }
+
+  /// Cost with the vertex at (x, y). Puts the most expensive face first: it is what rules out most other places.
+  double rank_star(double x, double y)
   {
     double highest = -1;
     for (Star_face& s : star_)
-      if (const double c = cost(p, s.a, s.b, s.given, s.size); c > highest) {
+      if (const double c = cost(x, y, s); c > highest) {
         highest = c;
         std::swap(s, star_.front());
       }
-    return cost_of_star(p, std::numeric_limits<double>::infinity());
+    return cost_of_star(x, y, std::numeric_limits<double>::infinity());
   }
 
-  /// Cost with the vertex at p; gives up where that isn't below `stop`.
-  double cost_of_star(const Point& p, double stop) const
+  /// Cost with the vertex at (x, y); gives up where that isn't below `stop`.
+  double cost_of_star(double x, double y, double stop) const
   {
     double sum = 0;
     for (const Star_face& s : star_) {
-      sum += cost(p, s.a, s.b, s.given, s.size);
-      if (sum >= stop) break;
+      sum += cost(x, y, s);
+      if (sum >= stop) return sum;
     }
     for (const Chain_edge& e : chain_)
-      sum += oversize(CGAL::to_double(CGAL::squared_distance(p, e.end)) / (e.size * e.size));
+      sum += oversize(((x - e.x) * (x - e.x) + (y - e.y) * (y - e.y)) / e.squared_size);
     return sum;
+  }
+
+  /// Cost of a face with its vertex at (x, y).
+  static double cost(double x, double y, const Star_face& s)
+  {
+    const double ax = s.ax - x, ay = s.ay - y, bx = s.bx - x, by = s.by - y;
+    return cost(2 * (ax * by - ay * bx), {s.squared_base, bx * bx + by * by, ax * ax + ay * ay}, s.given,
+                s.squared_size);
   }
 
   /// Compass search in eight directions with halved steps; lowers `lowest`.
@@ -313,16 +341,16 @@ private:
     // again on a fractal shore, for 1 % fewer vertices and angles as good.
     constexpr int halvings = 3;
     constexpr double gain = 0.95;
-    Point best = v->point();
+    double x = CGAL::to_double(v->point().x()), y = CGAL::to_double(v->point().y());
     double step = 0.1 * mesh_.target(v);
     std::size_t at = 0;     // the direction that was good last is tried first
     std::size_t failed = 0; // directions in a row
     for (int k = 0; k < halvings;) {
-      const Point p(best.x() + step * directions[at][0], best.y() + step * directions[at][1]);
-      const double c = cost_of_star(p, lowest);
+      const double new_x = x + step * directions[at][0], new_y = y + step * directions[at][1];
+      const double c = cost_of_star(new_x, new_y, gain * lowest);
       if (c < gain * lowest) {
         lowest = c;
-        best = p;
+        x = new_x, y = new_y;
         failed = 0;
         continue;
       }
@@ -332,7 +360,7 @@ private:
       step *= 0.5;
       ++k;
     }
-    return best;
+    return Point(x, y);
   }
 
   Mesh& mesh_;

@@ -65,7 +65,8 @@ public:
       else if (n->is_in_domain())
         consider(mesh_.edge_ratio(f, i), n, n->index(f));
     }
-    for (const Face_handle f : mesh_.faces()) consider(mesh_.ratio(f), f, whole_face);
+    for (const Face_handle f : mesh_.faces())
+      if (!is_surely_good(f)) consider(mesh_.ratio(f), f, whole_face);
     if (max_cosine_ < 1 && bad_.empty())
       for (const Face_handle f : mesh_.faces())
         if (is_too_sharp(f)) bad_.push_back({0, key(f), f, whole_face});
@@ -112,19 +113,14 @@ public:
   bool is_too_sharp(Face_handle f) const { return is_sharp(f) && !is_forced(f); }
 
   /// Whether a face has an angle below the bound.
-  bool is_sharp(Face_handle f) const
-  {
-    return cosine(f, 0) > max_cosine_ || cosine(f, 1) > max_cosine_ || cosine(f, 2) > max_cosine_;
-  }
+  bool is_sharp(Face_handle f) const { return cosine(f, shortest_edge(f)) > max_cosine_; }
 
   /// Whether the input may force a sharp angle on a face: its shortest edge joins two constraints that meet at less
   /// than 60 degrees. Refining such faces would never end (Miller, Pav and Walkington, "When and why Delaunay
   /// refinement algorithms work", 2005).
   bool is_forced(Face_handle f) const
   {
-    int shortest = 0;
-    for (int i = 1; i < 3; ++i)
-      if (mesh_.squared_length(f, i) < mesh_.squared_length(f, shortest)) shortest = i;
+    const int shortest = shortest_edge(f);
     const Vertex_handle a = f->vertex(Triangulation::ccw(shortest)), b = f->vertex(Triangulation::cw(shortest));
     if (is_input_angle(f, shortest)) return true;
     if (a->constraint() == free_vertex || b->constraint() == free_vertex) return false;
@@ -173,6 +169,16 @@ private:
     return k;
   }
 
+  /// Certain that a face's ratio is neither bad nor the largest so far, up to rounding; spares most faces the roots
+  /// and divisions.
+  bool is_surely_good(Face_handle f) const
+  {
+    const double longest =
+        (std::max)({mesh_.squared_length(f, 0), mesh_.squared_length(f, 1), mesh_.squared_length(f, 2)});
+    const double size = mesh_.size(f) * (std::min)(largest_ratio_, 1.0) * (1 - 1e-12);
+    return longest < size * size;
+  }
+
   void consider(double ratio, Face_handle f, int edge)
   {
     largest_ratio_ = (std::max)(largest_ratio_, ratio);
@@ -209,6 +215,15 @@ private:
       if (mesh_.triangulation().is_constrained(*edge)) result.push_back(mesh_.chain_of(edge->first, edge->second));
     while (++edge != done);
     return result;
+  }
+
+  /// It lies opposite the smallest angle.
+  int shortest_edge(Face_handle f) const
+  {
+    int shortest = 0;
+    for (int i = 1; i < 3; ++i)
+      if (mesh_.squared_length(f, i) < mesh_.squared_length(f, shortest)) shortest = i;
+    return shortest;
   }
 
   double cosine(Face_handle f, int i) const

@@ -294,7 +294,7 @@ private:
     while (!stack_.empty()) {
       auto [f, i] = stack_.back();
       stack_.pop_back();
-      if (cdt_.is_infinite(f) || !cdt_.is_flipable(f, i, false)) continue;
+      if (cdt_.is_infinite(f) || is_surely_delaunay(f, i) || !cdt_.is_flipable(f, i, false)) continue;
       const Face_handle n = f->neighbor(i);
       cdt_.flip(f, i);
       ++flips;
