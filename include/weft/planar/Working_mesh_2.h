@@ -290,10 +290,11 @@ public:
   /// \returns whether that was possible; it always is, short of collinear neighbors.
   bool remove(Vertex_handle v)
   {
-    const std::vector<Vertex_handle> link = link_of(v);
-    if (!flip_down(v, 3)) return restore_star(v);
-    merge_star(v, v->face());
-    restore_delaunay_around(link);
+    std::vector<Face_handle> hole;
+    if (!flip_down(v, 3, hole)) return restore_star(v);
+    hole.push_back(v->face());
+    merge_star(v, hole.back());
+    relocator_.restore_delaunay_of(hole);
     return true;
   }
 
@@ -320,7 +321,8 @@ public:
     const auto [a, b] = neighbors_on_constraint(v);
     if (a == Vertex_handle()) return false;
     const std::vector<Vertex_handle> link = link_of(v);
-    if (!flip_down(v, 4)) return restore_star(v);
+    std::vector<Face_handle> ears;
+    if (!flip_down(v, 4, ears)) return restore_star(v);
     Face_handle left, right; // of the edge from v to b
     int i;
     cdt_.is_edge(v, b, left, i);
@@ -427,8 +429,8 @@ private:
   }
 
   /// Flips unconstrained edges of v until it has no more than `degree` left. Each flip cuts an ear off the star, which
-  /// stays star-shaped around v.
-  bool flip_down(Vertex_handle v, std::size_t degree)
+  /// stays star-shaped around v. Appends the ears.
+  bool flip_down(Vertex_handle v, std::size_t degree, std::vector<Face_handle>& ears)
   {
     const auto orientation = cdt_.geom_traits().orientation_2_object();
     while (cdt_.degree(v) > degree) {
@@ -443,7 +445,9 @@ private:
         const auto &p = f->vertex(Cdt::ccw(i))->point(), &ear = f->vertex(Cdt::cw(i))->point(),
                    &q = next->vertex(Cdt::cw(next->index(v)))->point();
         flipped = orientation(p, ear, q) == CGAL::LEFT_TURN && orientation(p, q, v->point()) == CGAL::LEFT_TURN;
-        if (flipped) cdt_.flip(f, left);
+        if (!flipped) continue;
+        cdt_.flip(f, left);
+        ears.push_back(f->has_vertex(v) ? next : f);
       } while (!flipped && ++face != done);
       if (!flipped) return false;
     }

@@ -170,13 +170,19 @@ private:
       mesh_.remove(v);
     else if (a == Vertex_handle() || is_too_long(a, b) || !mesh_.remove_from_constraint(v))
       return false;
-    if (cost(region.vertices) < hopeless_removal * region.cost && settle(region.vertices, region.cost, worth_removing))
-      return true;
+    if (is_hopeful_removal(region) && settle(region.vertices, region.cost, worth_removing)) return true;
     put_back(region);
     const Vertex_handle again =
         constraint < 0 ? mesh_.insert_inside(p, region.vertices.front()->face()) : insert_between(a, b, p);
     if (again == Vertex_handle()) return true;
     mesh_.adopt(again, id);
+    return false;
+  }
+
+  bool is_hopeful_removal(const Region& region)
+  {
+    if (cost(region.vertices) < hopeless_removal * region.cost) return true;
+    if (trials_left_ > 0) --trials_left_;
     return false;
   }
 

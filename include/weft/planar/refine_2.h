@@ -56,17 +56,11 @@ public:
     bad_.clear();
     largest_ratio_ = 0;
     oversized_ = 0;
-    const Triangulation& cdt = mesh_.triangulation();
-    for (auto e = cdt.constrained_edges_begin(); e != cdt.constrained_edges_end(); ++e) {
-      const auto [f, i] = *e;
-      const Face_handle n = f->neighbor(i);
-      if (f->is_in_domain())
-        consider(mesh_.edge_ratio(f, i), f, i);
-      else if (n->is_in_domain())
-        consider(mesh_.edge_ratio(f, i), n, n->index(f));
-    }
-    for (const Face_handle f : mesh_.faces())
+    for (const Face_handle f : mesh_.faces()) {
+      for (int i = 0; i < 3; ++i)
+        if (f->is_constrained(i) && represents_edge(f, i)) consider(mesh_.edge_ratio(f, i), f, i);
       if (!is_surely_good(f)) consider(mesh_.ratio(f), f, whole_face);
+    }
     if (max_cosine_ < 1 && bad_.empty())
       for (const Face_handle f : mesh_.faces())
         if (is_too_sharp(f)) bad_.push_back({0, key(f), f, whole_face});
@@ -167,6 +161,13 @@ private:
     while (std::pair(k[2], k[3]) < std::pair(k[0], k[1]) || std::pair(k[4], k[5]) < std::pair(k[0], k[1]))
       std::rotate(k.begin(), k.begin() + 2, k.end());
     return k;
+  }
+
+  /// Whether an edge is to be looked at from this side: each is once, from a face of the domain.
+  static bool represents_edge(Face_handle f, int i)
+  {
+    return !f->neighbor(i)->is_in_domain() ||
+           f->vertex(Triangulation::ccw(i))->id() < f->vertex(Triangulation::cw(i))->id();
   }
 
   /// Certain that a face's ratio is neither bad nor the largest so far, up to rounding; spares most faces the roots
