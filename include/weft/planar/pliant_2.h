@@ -55,6 +55,7 @@ public:
         worst.push_back({c, {f->vertex(0)->id(), f->vertex(1)->id(), f->vertex(2)->id()}});
     std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     failures_.reserve(mesh_.vertices().size());
+    is_patient_ = worst.size() <= 20 + mesh_.faces().size() / 500;
     std::size_t kept = 0;
     for (const auto& [c, t] : worst) {
       if (trials_left_ == 0 || !go_on()) break;
@@ -181,7 +182,7 @@ private:
 
   bool is_hopeful_removal(const Region& region)
   {
-    if (cost(region.vertices) < hopeless_removal * region.cost) return true;
+    if (is_patient_ || cost(region.vertices) < hopeless_removal * region.cost) return true;
     if (trials_left_ > 0) --trials_left_;
     return false;
   }
@@ -235,7 +236,7 @@ private:
   {
     if (trials_left_ > 0) --trials_left_;
     constexpr int most_rounds = 8;
-    constexpr double hopeless = 12;
+    const double hopeless = is_patient_ ? 32 : 12;
     for (const Vertex_handle v : vertices) polisher_.give_hope(v);
     double now = hopeless * old_cost;
     for (int round = 0; round < most_rounds; ++round) {
@@ -284,6 +285,7 @@ private:
 
   Mesh& mesh_;
   Polisher_2<Mesh>& polisher_;
+  bool is_patient_ = false; // few triangles are bad: each may take longer
   std::size_t insertions_left_ = 0, trials_left_ = 0;
   internal::Failure_memory failures_; // surroundings of triangles that no change mended
 };
