@@ -235,8 +235,8 @@ private:
   bool settle(const std::vector<Vertex_handle>& vertices, double old_cost, double worth)
   {
     if (trials_left_ > 0) --trials_left_;
-    constexpr int most_rounds = 8;
-    const double hopeless = is_patient_ ? 32 : 12;
+    const int most_rounds = is_patient_ ? 24 : 8;
+    const double hopeless = is_patient_ ? 1000 : 12;
     for (const Vertex_handle v : vertices) polisher_.give_hope(v);
     double now = hopeless * old_cost;
     for (int round = 0; round < most_rounds; ++round) {
@@ -245,7 +245,7 @@ private:
       const double before = now;
       now = cost(vertices);
       if (!moved) break;
-      if (now > before || (round > 0 && now - (before - now) > worth * old_cost)) return false;
+      if (now > before || (round > 0 && !is_patient_ && now - (before - now) > worth * old_cost)) return false;
     }
     return now < worth * old_cost;
   }
