@@ -231,7 +231,8 @@ private:
   /// Polishes the vertices. Returns whether the cost of the triangles around them falls below a part of what it was;
   /// gives up when that is unlikely: where the first round leaves 12 times the cost, or where one more gain like the
   /// last one would not do. That saves two thirds of the rounds and loses 3 to 5 % of the changes that would have been
-  /// kept in the end.
+  /// kept in the end; so it isn't done where few triangles are bad: an airfoil at 100k triangles then ends with a
+  /// smallest angle of 34.0 degrees, not 29.7.
   bool settle(const std::vector<Vertex_handle>& vertices, double old_cost, double worth)
   {
     if (trials_left_ > 0) --trials_left_;
