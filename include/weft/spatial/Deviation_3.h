@@ -143,10 +143,12 @@ private:
   }
 
   /// Barycentric coordinates. With the centroid and the middles of the edges alone, smoothing raises the distance of
-  /// the dragknob by a third unseen; with these by 15 %.
-  static constexpr double samples[][2] = {{1. / 3, 1. / 3}, {.6, .2},   {.2, .6},  {.2, .2}, {.5, 0},
-                                          {0, .5},          {.5, .5},   {.25, 0},  {.75, 0}, {0, .25},
-                                          {0, .75},         {.25, .75}, {.75, .25}};
+  /// the dragknob by a third unseen; with nine points on the edges and four inside the whole run raises it by 17 %,
+  /// with these by 2 %.
+  static constexpr double samples[][2] = {
+      {1. / 3, 1. / 3}, {.6, .2},   {.2, .6},   {.2, .2},   {.44, .12},   {.12, .44},  {.44, .44}, {0.5, 0},
+      {0.3, 0},         {0.7, 0},   {0.12, 0},  {0.88, 0},  {0, 0.5},     {0, 0.3},    {0, 0.7},   {0, 0.12},
+      {0, 0.88},        {0.5, 0.5}, {0.3, 0.7}, {0.7, 0.3}, {0.12, 0.88}, {0.88, 0.12}};
 
   const Restricted* mesh_;
 };
