@@ -107,8 +107,7 @@ struct Request
   bool repair = false, quiet = false;
 };
 
-/// Dihedral angle of regular tetrahedra, in degrees. They don't fill space, so nothing can be asked for beyond it: that
-/// means as far as it goes.
+/// Dihedral angle of regular tetrahedra, in degrees: no mesh has more, since they don't fill space.
 constexpr double regular = 70.53;
 
 /// A bound on shapes: at least 1, or 0 for none.
@@ -129,6 +128,9 @@ void read_criteria(const command_line::Arguments& arguments, Request& request)
   criteria.topology = arguments.has("--topology");
   criteria.manifold = arguments.has("--manifold");
   request.min_dihedral = arguments.number("--min-dihedral", 0, 90).value_or(0);
+  if (request.min_dihedral > regular && request.min_dihedral < 90)
+    throw Error("--min-dihedral: '" + arguments.value("--min-dihedral") +
+                "' is more than regular tetrahedra have; 90 goes as far as possible");
   if (arguments.has("--no-optimise")) {
     request.options.coarsen = false;
     request.options.smoothing_sweeps = 0;

@@ -59,7 +59,7 @@ public:
     go_on = go_on && refine(1, true);
     go_on = go_on && optimise();
     begin_stage("perturbation", Stage::polishing);
-    if (go_on && options_.min_dihedral_angle > 0) perturb();
+    if (go_on && options_.min_dihedral_angle > 0 && is_good()) perturb();
     end_stage();
     fill_report(mesh_, criteria_, size_floor(), report_);
     return report_;
@@ -172,9 +172,7 @@ private:
     report_.refined_smallest_dihedral = smallest_dihedral();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     begin_stage("refinement after smoothing", Stage::refinement);
-    Mesh_report_3 now;
-    internal::count_bad_elements(mesh_, criteria_, size_floor(), now);
-    return now.bad() == 0 || refine(1, true); // refinement also prevents: it would mirror vertices at acute edges
+    return is_good() || refine(1, true); // refinement also prevents: it would mirror vertices at acute edges
   }
 
   bool coarsen()
@@ -210,6 +208,14 @@ private:
 
   /// For optimisers: the visitor isn't called again once it has ended the run.
   bool goes_on() { return report_.stop_reason != Stop_reason::cancelled && (visit(0) || stop(Stop_reason::cancelled)); }
+
+  /// Whether nothing is bad. Where something is, the input has angles so small that no perturbation helps beside them.
+  bool is_good() const
+  {
+    Mesh_report_3 now;
+    internal::count_bad_elements(mesh_, criteria_, size_floor(), now);
+    return now.bad() == 0;
+  }
 
   double time_left() const { return (std::max)(0.0, options_.time_limit - timer_.seconds()); }
 
