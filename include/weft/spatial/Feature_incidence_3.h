@@ -52,15 +52,27 @@ public:
       for (auto& list : *lists) sort_and_thin(list);
   }
 
+  /// For domains that don't tell which patches meet at a crease: any may.
+  /// \param ends of each crease, the feature vertices there; -1 for a closed one.
+  Feature_incidence_3(std::size_t number_of_corners, const std::vector<std::pair<int, int>>& ends)
+      : knows_patches_(false), creases_of_corner_(number_of_corners)
+  {
+    for (std::size_t c = 0; c < ends.size(); ++c) {
+      add_crease_at(ends[c].first, static_cast<int>(c));
+      add_crease_at(ends[c].second, static_cast<int>(c));
+    }
+    for (auto& list : creases_of_corner_) sort_and_thin(list);
+  }
+
   bool corner_is_on_crease(int corner, int crease) const { return contains(creases_of_corner_[corner], crease); }
 
   /// Creases that end in a feature vertex, in order; one that starts and ends there counts once.
   const std::vector<int>& creases_of_corner(int corner) const { return creases_of_corner_[corner]; }
-  const std::vector<int>& patches_of_crease(int crease) const { return patches_of_crease_[crease]; }
 
-  /// Whether a location lies on the closure of a patch.
+  /// Whether a location lies on the closure of a patch, as far as that is known.
   bool is_on_patch(const Vertex_location_3& at, int patch) const
   {
+    if (at.dimension < 2 && !knows_patches_) return true;
     switch (at.dimension) {
     case 0:
       return contains(patches_of_corner_[at.index], patch);
@@ -83,6 +95,7 @@ private:
   }
   static bool contains(const std::vector<int>& list, int x) { return std::binary_search(list.begin(), list.end(), x); }
 
+  bool knows_patches_ = true;
   std::vector<std::vector<int>> creases_of_corner_, patches_of_corner_, patches_of_crease_;
 };
 

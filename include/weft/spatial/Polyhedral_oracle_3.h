@@ -18,9 +18,11 @@
 
 #include <weft/errors.h>
 #include <weft/internal/farthest_points_3.h>
-#include <weft/internal/Segment_hierarchy_3.h>
 #include <weft/internal/Triangle_hierarchy_3.h>
 #include <weft/spatial/Acute_edges_3.h>
+#include <weft/spatial/Crease_network_3.h>
+#include <weft/spatial/Feature_incidence_3.h>
+#include <weft/spatial/oracle_hits_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/Salient_features_3.h>
 
@@ -38,22 +40,6 @@
 
 namespace weft {
 
-/// A point of the boundary and the patch that it lies on.
-template <class K>
-struct Surface_hit_3
-{
-  typename K::Point_3 point;
-  int patch;
-};
-
-/// A point of a crease and the number of that crease.
-template <class K>
-struct Crease_hit_3
-{
-  typename K::Point_3 point;
-  int crease;
-};
-
 /// The domain that a piecewise smooth complex bounds, ready for queries. All queries may be asked by several threads at
 /// once.
 /// \tparam K a CGAL kernel with exact predicates whose coordinates are doubles, such as
@@ -66,6 +52,11 @@ class Polyhedral_oracle_3
 public:
   using Kernel = K;
   using Point = typename K::Point_3;
+
+  /// Whether several threads may ask at once.
+  static constexpr bool is_thread_safe = true;
+  /// Whether locating points is cheaper than finding out from segments where the boundary lies between them.
+  static constexpr bool labels_first = false;
 
   /// O(n log n) for n triangles.
   /// \pre The triangles form closed oriented surfaces without self-intersections; `piecewise_smooth_complex()` checks.
@@ -89,6 +80,9 @@ public:
   {}
 
   const Piecewise_smooth_complex_3<K>& complex() const { return complex_; }
+
+  /// Which creases and patches meet. Linear in the size of the complex, but for a factor log(number of sharp edges).
+  Feature_incidence_3 incidence() const { return Feature_incidence_3(complex_); }
 
   /// Bounding box of the boundary.
   CGAL::Bbox_3 bbox() const
@@ -146,26 +140,19 @@ public:
   }
 
   /// Nearest point of a crease.
-  Point project_on_crease(const Point& p, int crease) const { return crease_chains_[crease].nearest(p); }
+  Point project_on_crease(const Point& p, int crease) const { return creases_.project_on_crease(p, crease); }
 
   /// Radius of a ball around p that the boundary doesn't enter: the distance to the boundary less a few 1e-6 of the
   /// bounding box's longest side, and 0 where nothing is left.
   double clearance(const Point& p) const { return surface_.clearance(p); }
+  /// Whether the boundary keeps that distance from p.
+  bool is_clear(const Point& p, double radius) const { return clearance(p) >= radius; }
 
-  /// Appends the points where creases cross a convex polygon in the plane that bisects a and b, such as the Voronoi
-  /// facet of the Delaunay edge ab. Exact predicates decide which crease edges cross the plane, and a crease vertex on
-  /// the plane is one crossing or none; whether the point is in the polygon, whose vertices are rounded, isn't exact.
-  /// \param polygon its vertices in order, in either direction.
+  /// Where creases cross a Voronoi facet, see Crease_network_3.
   void intersect_creases(const Point& a, const Point& b, const std::vector<Point>& polygon,
                          std::vector<Crease_hit_3<K>>& hits) const
   {
-    const auto first = static_cast<std::ptrdiff_t>(hits.size());
-    creases_.cross_polygon(a, b, polygon, [&](const Point& x, const internal::Crease_segment_3<K>& segment) {
-      hits.push_back({x, segment.crease});
-    });
-    std::sort(hits.begin() + first, hits.end(), [](const Crease_hit_3<K>& x, const Crease_hit_3<K>& y) {
-      return std::tie(x.crease, x.point) < std::tie(y.crease, y.point);
-    });
+    creases_.intersect_creases(a, b, polygon, hits);
   }
 
   /// Moves a point of a patch to where the surface bends most within reach: the nearest vertex at the end of a fold,
@@ -210,21 +197,17 @@ public:
   bool attract_to_acute_edge(Point& p, double radius) const { return acute_edges_.attract(p, radius); }
 
   /// Vertices that every mesh has to keep.
-  std::size_t number_of_corners() const { return complex_.features.size(); }
-  const Point& corner(std::size_t i) const { return complex_.points[complex_.features[i].vertex]; }
+  std::size_t number_of_corners() const { return creases_.number_of_corners(); }
+  const Point& corner(std::size_t i) const { return creases_.corner(i); }
 
-  std::size_t number_of_creases() const { return complex_.creases.size(); }
-
+  std::size_t number_of_creases() const { return creases_.number_of_creases(); }
   /// The vertices of a crease in order; a closed one doesn't repeat the first.
-  std::vector<Point> crease_points(int i) const
-  {
-    std::vector<Point> points;
-    for (const std::size_t v : complex_.creases[i].vertices) points.push_back(complex_.points[v]);
-    return points;
-  }
-  bool crease_is_closed(int i) const { return complex_.creases[i].closed; }
+  std::vector<Point> crease_points(int i) const { return creases_.crease_points(i); }
+  bool crease_is_closed(int i) const { return creases_.crease_is_closed(i); }
 
   int number_of_patches() const { return complex_.number_of_patches; }
+  /// Whether a mesh that lacks a patch lacks something.
+  bool is_expected(int) const { return true; }
 
   /// n well-spread points of a patch, off creases and feature vertices: the same ones each time. Fewer only where
   /// doubles have fewer points. O(n triangles).
@@ -250,7 +233,6 @@ private:
 
   using Contact = internal::Contact_3<Point>;
   using Triangle = internal::Surface_triangle_3<K>;
-  using Segments = std::vector<internal::Crease_segment_3<K>>;
 
   void build_surfaces()
   {
@@ -273,17 +255,14 @@ private:
 
   void build_creases()
   {
-    Segments all;
-    for (std::size_t c = 0; c < complex_.creases.size(); ++c) {
-      const auto& vertices = complex_.creases[c].vertices;
-      Segments chain;
-      for (std::size_t i = 0; i + 1 < vertices.size() + complex_.creases[c].closed; ++i)
-        chain.push_back(
-            {complex_.points[vertices[i]], complex_.points[vertices[(i + 1) % vertices.size()]], static_cast<int>(c)});
-      crease_chains_.emplace_back(chain);
-      all.insert(all.end(), chain.begin(), chain.end());
+    std::vector<Point> corners;
+    for (const auto& feature : complex_.features) corners.push_back(complex_.points[feature.vertex]);
+    std::vector<Crease_polyline_3<K>> creases;
+    for (const auto& crease : complex_.creases) {
+      creases.push_back({{}, crease.closed});
+      for (const std::size_t v : crease.vertices) creases.back().points.push_back(complex_.points[v]);
     }
-    creases_ = internal::Segment_hierarchy_3<K>(all);
+    creases_ = Crease_network_3<K>(std::move(corners), std::move(creases));
   }
 
   static Surface_hit_3<K> hit(const typename internal::Triangle_hierarchy_3<K>::Nearest& nearest)
@@ -354,8 +333,7 @@ private:
   Piecewise_smooth_complex_3<K> complex_;
   internal::Triangle_hierarchy_3<K> surface_;
   std::vector<internal::Triangle_hierarchy_3<K>> patches_; // empty if there is but one
-  internal::Segment_hierarchy_3<K> creases_;
-  std::vector<internal::Segment_hierarchy_3<K>> crease_chains_;
+  Crease_network_3<K> creases_;
   Salient_features_3<K> salient_;
   Acute_edges_3<K> acute_edges_;
 };

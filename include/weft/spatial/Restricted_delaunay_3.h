@@ -81,8 +81,8 @@ public:
   /// \param oracle has to live as long as this object.
   explicit Restricted_delaunay_3(const Oracle& oracle, int threads = 1)
       : oracle_(&oracle),
-        incidence_(oracle.complex()),
-        threads_(threads),
+        incidence_(oracle.incidence()),
+        threads_(Oracle::is_thread_safe ? threads : 1),
         tr_(std::make_unique<Triangulation>()),
         tracer_(*tr_),
         facets_of_patch_(static_cast<std::size_t>(oracle.number_of_patches()), 0)
@@ -113,7 +113,11 @@ public:
     return record < 0 ? nullptr : &facets_[static_cast<std::size_t>(record)];
   }
   /// How many restricted facets have their Steiner point on a patch.
-  int number_of_facets(int patch) const { return facets_of_patch_[static_cast<std::size_t>(patch)]; }
+  int number_of_facets(int patch) const
+  {
+    const auto p = static_cast<std::size_t>(patch);
+    return p < facets_of_patch_.size() ? facets_of_patch_[p] : 0;
+  }
   /// Whether a restricted facet separates the domain from the outside.
   bool is_boundary(const Restricted_facet& f) const
   {
@@ -273,15 +277,17 @@ private:
   }
 
 public:
-  /// Inserts points one after the other, each near the one before, and classifies only what is there at the end.
-  void insert(const std::vector<Point>& points, const Vertex_location_3& location)
+  /// Inserts points inside one after the other, each near the one before, and classifies only what is there at the end.
+  /// \param subdomains of the points.
+  void insert(const std::vector<Point>& points, const std::vector<int>& subdomains)
   {
     Zone zone;
     creases_are_stale_ = true;
     Cell_handle hint = vertices_.empty() ? Cell_handle() : vertices_.back()->cell();
-    for (const Point& p : points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Point& p = points[i];
       if (find_conflict_zone(*tr_, p, tr_->locate(p, hint), no_batch, zone) != Zone_result::found) continue;
-      hint = insert(zone, location)->cell();
+      hint = insert(zone, {3, subdomains[i]})->cell();
       new_cells_.clear(); // some of them don't live to see the end
     }
     for (const Cell_handle c : tr_->finite_cell_handles())
@@ -478,7 +484,9 @@ private:
     internal::parallel_for(new_cells_.size(), threads_, [this](std::size_t k) {
       const Cell_handle c = new_cells_[k];
       c->set_circumcenter(circumcenter_of_cell_3<Kernel>(c));
+      if constexpr (Oracle::labels_first) c->set_subdomain(is_at_box(c) ? 0 : oracle_->subdomain(c->circumcenter()));
     });
+    if (Oracle::labels_first) counts_.locations += new_cells_.size();
   }
 
   /// Asks the oracle about every new Voronoi edge once.
@@ -509,9 +517,12 @@ private:
     thread_local std::vector<Surface_hit> hits;
     hits.clear();
     Restricted_facet& f = e.facet;
-    const Point *p = &f.cell->circumcenter(), *q = &f.cell->neighbor(f.index)->circumcenter();
-    if (*q < *p) std::swap(p, q); // the same answer from either cell
-    e.sides_differ = oracle_->intersect(*p, *q, hits);
+    Cell_handle c = f.cell, n = c->neighbor(f.index);
+    if (n->circumcenter() < c->circumcenter()) std::swap(c, n); // the same answer from either cell
+    if constexpr (Oracle::labels_first)
+      e.sides_differ = oracle_->intersect(c->circumcenter(), n->circumcenter(), c->subdomain(), n->subdomain(), hits);
+    else
+      e.sides_differ = oracle_->intersect(c->circumcenter(), n->circumcenter(), hits);
     f.crossings = static_cast<int>(hits.size());
     const Point& a = f.cell->vertex(f.index == 0 ? 1 : 0)->point();
     for (const auto& hit : hits) {
@@ -537,6 +548,11 @@ private:
   {
     std::vector<Cell_handle>& front = classified_;
     front.clear();
+    if (Oracle::labels_first) {
+      front = new_cells_;
+      for (const Cell_handle c : new_cells_) c->set_classified(true);
+      return;
+    }
     for (const Cell_handle c : new_cells_) {
       const bool at_box = is_at_box(c);
       for (int i = 0; i < 4 && !c->is_classified(); ++i)
@@ -593,7 +609,9 @@ private:
         facets_[static_cast<std::size_t>(record)] = e.facet;
       }
       new_facets_.push_back(record);
-      ++facets_of_patch_[static_cast<std::size_t>(e.facet.patch)];
+      const auto patch = static_cast<std::size_t>(e.facet.patch);
+      if (patch >= facets_of_patch_.size()) facets_of_patch_.resize(patch + 1, 0); // found only now
+      ++facets_of_patch_[patch];
       const Cell_handle c = e.facet.cell, n = c->neighbor(e.facet.index);
       c->set_facet_record(e.facet.index, record);
       n->set_facet_record(n->index(c), record);

@@ -112,10 +112,10 @@ private:
     std::vector<char> has_facet(static_cast<std::size_t>(oracle_.number_of_patches()), false);
     for (const auto& f : mesh_.facets())
       if (f.cell != typename Restricted::Cell_handle()) has_facet[static_cast<std::size_t>(f.patch)] = true;
-    if (seeded_.empty()) seeded_.assign(has_facet.size(), 0);
+    seeded_.resize(has_facet.size(), 0);
     std::size_t inserted = 0;
     for (std::size_t p = 0; p < has_facet.size(); ++p) {
-      if (has_facet[p] || seeded_[p] >= most_seeds) continue;
+      if (has_facet[p] || seeded_[p] >= most_seeds || !oracle_.is_expected(static_cast<int>(p))) continue;
       const auto seeds = oracle_.patch_seeds(static_cast<int>(p), seeded_[p] + n);
       for (std::size_t k = seeded_[p]; k < seeds.size() && has_room(); ++k, ++inserted)
         mesh_.insert(seeds[k].point, {2, static_cast<int>(p)});
@@ -138,7 +138,9 @@ private:
     const std::size_t room = options_.max_vertices - (std::min)(options_.max_vertices, mesh_.vertices().size());
     auto points = interior_lattice(oracle_, spacing, lattice_clearance * spacing, room);
     drop_encroaching(mesh_, spacing, lattice_clearance * spacing, points);
-    mesh_.insert(points, {3, 1});
+    std::vector<int> subdomains;
+    for (const Point& p : points) subdomains.push_back(oracle_.subdomain(p));
+    mesh_.insert(points, subdomains);
   }
 
   /// Refines until nothing more can be done; false when the run has to end.

@@ -327,7 +327,7 @@ private:
     ++report_.trials;
     if (location_.dimension == 1) p = mesh_.oracle().project_on_crease(p, location_.index);
     if (location_.dimension == 2) p = mesh_.oracle().project_on_patch(p, location_.index).point;
-    if (location_.dimension == 3 && mesh_.oracle().subdomain(p) == 0) return Judge::no_good;
+    if (location_.dimension == 3 && mesh_.oracle().subdomain(p) != location_.index) return Judge::no_good;
     if (!judge_.find_zone(p, near_)) return Judge::no_good;
     const double measure = judge_.judge(limit_);
     if (measure > most_ || measure >= Judge::no_good) return Judge::no_good;

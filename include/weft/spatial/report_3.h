@@ -60,7 +60,8 @@ void count_bad_elements(const Restricted& mesh, const Criteria_3<Kernel>& criter
 template <class Restricted>
 std::size_t count_bare_patches(const Restricted& mesh)
 {
-  std::vector<char> is_bare(static_cast<std::size_t>(mesh.oracle().number_of_patches()), true);
+  std::vector<char> is_bare(static_cast<std::size_t>(mesh.oracle().number_of_patches()));
+  for (std::size_t p = 0; p < is_bare.size(); ++p) is_bare[p] = mesh.oracle().is_expected(static_cast<int>(p));
   for (const auto& f : mesh.facets())
     if (f.cell != typename Restricted::Cell_handle() && mesh.is_boundary(f))
       is_bare[static_cast<std::size_t>(f.patch)] = false;

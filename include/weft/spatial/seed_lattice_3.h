@@ -42,7 +42,7 @@ std::vector<typename Oracle::Kernel::Point_3> interior_lattice(const Oracle& ora
       for (int i = 0; i <= nx && points.size() < most; ++i) {
         const double shift = k % 2 == 0 ? 0 : 0.5;
         const Point p(x0 + (i + shift) * spacing, y0 + (j + shift) * spacing, z0 + 0.5 * k * spacing);
-        if (oracle.clearance(p) >= clearance && oracle.subdomain(p) != 0) points.push_back(p);
+        if (oracle.is_clear(p, clearance) && oracle.subdomain(p) != 0) points.push_back(p);
       }
   // Row by row, each point would see half of the surface: 23 s instead of 3 for 350,000 points.
   CGAL::spatial_sort(points.begin(), points.end());

@@ -89,7 +89,8 @@ public:
     return masses_.empty() ? measured_mass(c) : masses_[static_cast<std::size_t>(c->id())];
   }
 
-  /// Which facets of a cell lie on the boundary of its subdomain: bit i for that opposite to vertex i.
+  /// Which facets of a cell lie on the boundary of the whole domain: bit i for that opposite to vertex i. Interfaces
+  /// have cells on both sides, all of which take part (sec. 4.2.1.2).
   unsigned boundary(Cell_handle c) const
   {
     return boundaries_.empty() ? measured_boundary(c) : boundaries_[static_cast<std::size_t>(c->id())];
@@ -113,7 +114,7 @@ private:
   static unsigned char measured_boundary(Cell_handle c)
   {
     unsigned bits = 0;
-    for (int i = 0; i < 4; ++i) bits |= unsigned(c->neighbor(i)->subdomain() != c->subdomain()) << i;
+    for (int i = 0; i < 4; ++i) bits |= unsigned(c->neighbor(i)->subdomain() == 0) << i;
     return static_cast<unsigned char>(bits);
   }
 

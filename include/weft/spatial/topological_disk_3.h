@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The topological disk condition (Tournois 2009, sec. 3.2.1.4): around a vertex on the boundary the restricted facets
-// form one umbrella.
+// The topological disk condition (Tournois 2009, sec. 3.2.1.4): around a vertex on the boundary of a subdomain the
+// restricted facets of that boundary form one umbrella.
 
 #ifndef WEFT_SPATIAL_TOPOLOGICAL_DISK_3_H
 #define WEFT_SPATIAL_TOPOLOGICAL_DISK_3_H
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -32,16 +33,20 @@ bool is_one_cycle(std::vector<std::pair<Vertex, Vertex>>& edges)
   return at == first;
 }
 
-/// Whether the restricted facets around a vertex form one umbrella.
+/// Whether the restricted facets around a vertex form one umbrella; where several subdomains meet, those around each of
+/// them do. A facet with the same subdomain on both sides belongs to no boundary and breaks the umbrella.
 /// \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
 bool has_topological_disk(const Restricted& mesh, typename Restricted::Vertex_handle v)
 {
   using Vertex_handle = typename Restricted::Vertex_handle;
+  using Link_edge = std::pair<Vertex_handle, Vertex_handle>;
   thread_local std::vector<typename Restricted::Cell_handle> cells;
-  thread_local std::vector<std::pair<Vertex_handle, Vertex_handle>> link;
+  thread_local std::vector<Link_edge> link, link_of_one;
+  thread_local std::vector<std::pair<int, int>> sides;
   cells.clear();
   link.clear();
+  sides.clear();
   mesh.triangulation().incident_cells(v, std::back_inserter(cells));
   for (const auto c : cells)
     for (int i = 0; i < 4; ++i) {
@@ -53,8 +58,21 @@ bool has_topological_disk(const Restricted& mesh, typename Restricted::Vertex_ha
       for (int k = 0; k < 4; ++k)
         if (k != i && c->vertex(k) != v) ends[n++] = c->vertex(k);
       link.emplace_back(ends[0], ends[1]);
+      sides.emplace_back(std::minmax(c->subdomain(), c->neighbor(i)->subdomain()));
     }
-  return is_one_cycle(link);
+  const auto differs = [&](const std::pair<int, int>& s) { return s != sides.front(); };
+  if (std::none_of(sides.begin(), sides.end(), differs)) return is_one_cycle(link);
+  thread_local std::vector<int> subdomains;
+  subdomains.clear();
+  for (const auto& [low, high] : sides)
+    for (const int s : {low, high})
+      if (s != 0 && std::find(subdomains.begin(), subdomains.end(), s) == subdomains.end()) subdomains.push_back(s);
+  return std::all_of(subdomains.begin(), subdomains.end(), [&](int s) {
+    link_of_one.clear();
+    for (std::size_t k = 0; k < link.size(); ++k)
+      if (sides[k].first == s || sides[k].second == s) link_of_one.push_back(link[k]);
+    return is_one_cycle(link_of_one);
+  });
 }
 
 } // namespace weft
