@@ -100,8 +100,8 @@ inline std::ostream& operator<<(std::ostream& out, const Mesh_report_2& r)
 /// Elements of one kind that violate a criterion at the end, by what keeps them from being refined.
 struct Unsatisfied_3
 {
-  std::size_t size = 0, approximation = 0, shape = 0, topology = 0, disk = 0; ///< by criterion; may overlap
-  std::size_t elements = 0;                                                   ///< bad elements altogether
+  std::size_t size = 0, approximation = 0, shape = 0, topology = 0, disk = 0, demand = 0; ///< by criterion; may overlap
+  std::size_t elements = 0;                                                               ///< bad elements altogether
   std::size_t at_floor = 0;      ///< of them, whose Steiner point would come closer to a vertex than the size floor
   std::size_t at_acute_edge = 0; ///< of them, beside an edge of the input with an acute dihedral angle
 };
@@ -157,8 +157,8 @@ inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
   const auto unsatisfied = [&out](const Unsatisfied_3& u, const char* what) {
     if (!u.elements) return;
     out << u.elements << " bad " << what << " (size " << u.size << ", approximation " << u.approximation << ", shape "
-        << u.shape << ", topology " << u.topology << ", disk " << u.disk << "; at the size floor " << u.at_floor
-        << ", at acute edges of the input " << u.at_acute_edge << ")\n";
+        << u.shape << ", topology " << u.topology << ", disk " << u.disk << ", demands " << u.demand
+        << "; at the size floor " << u.at_floor << ", at acute edges of the input " << u.at_acute_edge << ")\n";
   };
   out << r.vertices << " vertices (" << r.corner_vertices << " feature, " << r.crease_vertices << " on creases, "
       << r.patch_vertices << " on patches, " << r.interior_vertices << " inside), " << r.cells << " cells, " << r.facets

@@ -21,7 +21,7 @@ inline void append_json(Json_text& json, std::string_view name, const Unsatisfie
   json.begin_object(name).member("elements", u.elements).member("at_floor", u.at_floor);
   json.member("at_acute_edge", u.at_acute_edge);
   json.member("size", u.size).member("approximation", u.approximation).member("shape", u.shape);
-  json.member("topology", u.topology).member("disk", u.disk).end();
+  json.member("topology", u.topology).member("disk", u.disk).member("demand", u.demand).end();
 }
 
 inline void append_json(Json_text& json, const Mesh_report_3& r)

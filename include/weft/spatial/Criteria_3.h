@@ -7,9 +7,12 @@
 #define WEFT_SPATIAL_CRITERIA_3_H
 
 #include <weft/errors.h>
+#include <weft/spatial/Tetrahedral_mesh_3.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -48,6 +51,43 @@ private:
   std::function<double(const Point&)> field_;
 };
 
+/// What cells of one subdomain have to satisfy in addition to what holds everywhere; 0: nothing more.
+template <class K>
+struct Subdomain_criteria_3
+{
+  Length_field_3<K> size; ///< longest edge, in the input's units
+  double cell_shape = 0;  ///< largest circumradius / shortest edge
+};
+
+/// What boundary facets on one patch have to satisfy in addition to what holds everywhere; 0: nothing more.
+template <class K>
+struct Patch_criteria_3
+{
+  Length_field_3<K> size;          ///< longest edge, in the input's units
+  Length_field_3<K> approximation; ///< distance to the surface, in the input's units
+  double facet_shape = 0;          ///< largest circumradius / shortest edge
+};
+
+/// What demands of users see of a boundary facet.
+template <class K>
+struct Facet_view_3
+{
+  std::array<const typename K::Point_3*, 3> points;
+  std::array<Vertex_location_3, 3> locations;
+  const typename K::Point_3* center; ///< of the surface Delaunay ball
+  int patch;
+};
+
+/// What demands of users see of a cell.
+template <class K>
+struct Cell_view_3
+{
+  std::array<const typename K::Point_3*, 4> points;
+  std::array<Vertex_location_3, 4> locations;
+  const typename K::Point_3* circumcenter;
+  int subdomain;
+};
+
 /// Criteria of `make_mesh_3()`. Everything but the size is optional.
 template <class K>
 struct Criteria_3
@@ -59,6 +99,14 @@ struct Criteria_3
   bool topology = false; ///< the vertices of a boundary facet lie on one patch, those of a crease edge on one crease
   bool manifold = false; ///< the boundary of the mesh is a 2-manifold
 
+  Length_field_3<K> crease_size;                     ///< longest crease edge, where that is less than `size`
+  std::map<int, Subdomain_criteria_3<K>> subdomains; ///< further ones, by subdomain
+  std::map<int, Patch_criteria_3<K>> patches;        ///< further ones, by patch
+
+  /// Any other demand: how bad an element is, above 1 if it has to be refined; called by one thread only.
+  std::function<double(const Facet_view_3<K>&)> facet_demand;
+  std::function<double(const Cell_view_3<K>&)> cell_demand;
+
   /// \throws Option_error naming the first criterion out of range.
   void check() const
   {
@@ -66,8 +114,20 @@ struct Criteria_3
       if (!holds) throw Option_error(what);
     };
     require(!size.is_constant() || (size.constant() > 0 && std::isfinite(size.constant())), "size must be positive");
-    require(!approximation.is_constant() || (approximation.constant() >= 0 && std::isfinite(approximation.constant())),
-            "approximation must be positive, or 0 for none");
+    const auto require_length = [&](const Length_field_3<K>& field, const char* what) {
+      require(!field.is_constant() || (field.constant() >= 0 && std::isfinite(field.constant())), what);
+    };
+    require_length(approximation, "approximation must be positive, or 0 for none");
+    for (const auto& [label, c] : subdomains) {
+      require_length(c.size, "size of a subdomain must be positive, or 0 for none");
+      require(c.cell_shape == 0 || c.cell_shape >= 1, "cell_shape of a subdomain must be at least 1, or 0 for none");
+    }
+    for (const auto& [patch, c] : patches) {
+      require_length(c.size, "size of a patch must be positive, or 0 for none");
+      require_length(c.approximation, "approximation of a patch must be positive, or 0 for none");
+      require(c.facet_shape == 0 || c.facet_shape >= 1, "facet_shape of a patch must be at least 1, or 0 for none");
+    }
+    require_length(crease_size, "crease_size must be positive, or 0 for none");
     require(facet_shape == 0 || facet_shape >= 1, "facet_shape must be at least 1, or 0 for none");
     require(cell_shape == 0 || cell_shape >= 1, "cell_shape must be at least 1, or 0 for none");
   }
@@ -80,6 +140,7 @@ enum Bad_reason_3 : unsigned
   bad_approximation = 2,
   bad_shape = 4,
   bad_topology = 8, ///< vertices of several patches or creases
+  bad_demand = 32,  ///< a demand of the user
   bad_disk = 16     ///< an end of it lacks a topological disk of boundary facets or crease edges around itself
 };
 
@@ -100,11 +161,9 @@ struct Badness_3
 /// Names of the reasons for people, separated by commas.
 inline std::string describe_reasons(unsigned reasons)
 {
-  static const std::pair<unsigned, const char*> names[] = {{bad_size, "size"},
-                                                           {bad_approximation, "approximation"},
-                                                           {bad_shape, "shape"},
-                                                           {bad_topology, "topology"},
-                                                           {bad_disk, "topological disk"}};
+  static const std::pair<unsigned, const char*> names[] = {
+      {bad_size, "size"},         {bad_approximation, "approximation"}, {bad_shape, "shape"},
+      {bad_topology, "topology"}, {bad_disk, "topological disk"},       {bad_demand, "demand"}};
   std::string text;
   for (const auto& [reason, label] : names)
     if (reasons & reason) text += (text.empty() ? "" : ", ") + std::string(label);

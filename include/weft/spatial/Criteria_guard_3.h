@@ -79,7 +79,7 @@ public:
       if (Restricted::is_at_box(c)) continue;
       c->set_circumcenter(circumcenter_3<Kernel>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
                                                  c->vertex(3)->point()));
-      if (offends(key(c), grade(c)) && mesh_.oracle().subdomain(c->circumcenter()) != 0) return false;
+      if (offends(key(c), unlabelled_grade(c)) && mesh_.oracle().subdomain(c->circumcenter()) != 0) return false;
     }
     return true;
   }
@@ -205,6 +205,13 @@ private:
   // ---- grades
 
   Grade grade(Cell_handle c) const { return {ratio(measure_.cell(c)), 0, 0, 0}; }
+  Grade unlabelled_grade(Cell_handle c) const
+  {
+    return {ratio(measure_.cell(
+                {&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()},
+                c->circumcenter())),
+            0, 0, 0};
+  }
 
   Grade grade(const Facet& f) const
   {

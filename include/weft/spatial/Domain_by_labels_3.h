@@ -193,6 +193,8 @@ protected:
 
   double diagonal() const { return diagonal_; }
 
+  void set_creases(Crease_network_3<K> creases) { creases_ = std::move(creases); }
+
   /// Of a crossing, in diagonals of the bounding box.
   static constexpr double precision = 1e-10;
   static constexpr int most_bisections = 80;

@@ -38,14 +38,25 @@ public:
 
   double factor() const { return factor_; }
 
-  /// A cell, wherever it lies: size and shape.
+  /// A cell of the domain: size and shape, and what its subdomain or the user asks for.
   Badness_3 cell(Cell_handle c) const
   {
-    return cell({&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()},
-                c->circumcenter());
+    const std::array<const Point*, 4> p{
+        {&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()}};
+    Badness_3 badness = cell(p, c->circumcenter());
+    const auto own = criteria_->subdomains.find(c->subdomain());
+    if (own != criteria_->subdomains.end()) add_own_criteria(p, c->circumcenter(), own->second, badness);
+    if (criteria_->cell_demand && factor_ <= 1)
+      badness.add(criteria_->cell_demand({p,
+                                          {{c->vertex(0)->location(), c->vertex(1)->location(),
+                                            c->vertex(2)->location(), c->vertex(3)->location()}},
+                                          &c->circumcenter(),
+                                          c->subdomain()}),
+                  bad_demand);
+    return badness;
   }
 
-  /// A cell that isn't there yet.
+  /// A cell that isn't there yet: size and shape as asked for everywhere.
   Badness_3 cell(const std::array<const Point*, 4>& p, const Point& circumcenter) const
   {
     Badness_3 badness;
@@ -75,6 +86,14 @@ public:
       badness.add(approximation_error(f) / bound, bad_approximation);
       if (!badness.is_bad()) badness.add(worst_missed_point(f).ratio, bad_approximation);
     }
+    const auto own = criteria_->patches.find(f.patch);
+    if (own != criteria_->patches.end()) add_own_criteria(f, v, shortest, radius, own->second, badness);
+    if (criteria_->facet_demand && factor_ <= 1)
+      badness.add(criteria_->facet_demand({{{&v[0]->point(), &v[1]->point(), &v[2]->point()}},
+                                           {{v[0]->location(), v[1]->location(), v[2]->location()}},
+                                           &f.steiner,
+                                           f.patch}),
+                  bad_demand);
     if (criteria_->topology && !on_one_patch(v, f.patch)) badness.add(just_bad, bad_topology);
     if (!mesh_->is_boundary(f)) badness.add(just_bad, bad_disk);
     return badness;
@@ -87,6 +106,7 @@ public:
     double shortest = -1;
     const Point &a = e.source->point(), &b = e.target->point();
     add_edge(a, b, badness, shortest);
+    if (criteria_->crease_size) add_edge(a, b, criteria_->crease_size, badness);
     if (criteria_->approximation)
       badness.add(std::sqrt(squared(CGAL::midpoint(a, b), e.steiner)) / (factor_ * criteria_->approximation(e.steiner)),
                   bad_approximation);
@@ -182,9 +202,36 @@ private:
   {
     const double length = squared(p, q);
     if (shortest < 0 || length < shortest) shortest = length;
-    const double size =
-        criteria_->size.is_constant() ? criteria_->size.constant() : criteria_->size(CGAL::midpoint(p, q));
-    badness.add(std::sqrt(length) / (factor_ * size), bad_size);
+    add_edge(p, q, criteria_->size, badness);
+  }
+
+  void add_edge(const Point& p, const Point& q, const Length_field_3<Kernel>& field, Badness_3& badness) const
+  {
+    const double size = field.is_constant() ? field.constant() : field(CGAL::midpoint(p, q));
+    badness.add(std::sqrt(squared(p, q)) / (factor_ * size), bad_size);
+  }
+
+  void add_own_criteria(const std::array<const Point*, 4>& p, const Point& circumcenter,
+                        const Subdomain_criteria_3<Kernel>& own, Badness_3& badness) const
+  {
+    double shortest = HUGE_VAL;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        shortest = (std::min)(shortest, squared(*p[i], *p[j]));
+        if (own.size) add_edge(*p[i], *p[j], own.size, badness);
+      }
+    if (own.cell_shape > 0)
+      badness.add(std::sqrt(squared(circumcenter, *p[0]) / shortest) / (factor_ * own.cell_shape), bad_shape);
+  }
+
+  void add_own_criteria(const typename Restricted::Restricted_facet& f, const Vertex_handle (&v)[3], double shortest,
+                        double squared_radius, const Patch_criteria_3<Kernel>& own, Badness_3& badness) const
+  {
+    if (own.size)
+      for (int i = 0; i < 3; ++i) add_edge(v[i]->point(), v[(i + 1) % 3]->point(), own.size, badness);
+    if (own.facet_shape > 0) badness.add(std::sqrt(squared_radius / shortest) / (factor_ * own.facet_shape), bad_shape);
+    if (own.approximation)
+      badness.add(approximation_error(f) / (factor_ * own.approximation(f.steiner)), bad_approximation);
   }
 
   /// The points that project into a triangle.

@@ -33,6 +33,7 @@ void count_bad(const Badness_3& badness, const Point& center, double squared_rad
   count.shape += (badness.reasons & bad_shape) != 0;
   count.topology += (badness.reasons & bad_topology) != 0;
   count.disk += (badness.reasons & bad_disk) != 0;
+  count.demand += (badness.reasons & bad_demand) != 0;
   count.at_floor += squared_radius < squared_floor;
   count.at_acute_edge += oracle.is_at_acute_edge(center, std::sqrt(squared_radius));
 }

@@ -71,7 +71,8 @@ private:
   bool fits(double from, double to) const
   {
     const Point a = at(from), b = at(to), middle = CGAL::midpoint(a, b), on_crease = at(0.5 * (from + to));
-    const double size = criteria_.size.is_constant() ? criteria_.size.constant() : criteria_.size(middle);
+    double size = criteria_.size.is_constant() ? criteria_.size.constant() : criteria_.size(middle);
+    if (criteria_.crease_size) size = (std::min)(size, criteria_.crease_size(middle));
     return length(a, b) <= size &&
            (!criteria_.approximation || length(middle, on_crease) <= criteria_.approximation(on_crease));
   }

@@ -67,28 +67,32 @@ Index index_from(int i)
     return Index(0, i);
 }
 
-/// Gives a vertex the dimension and index of its location. CGAL counts from 1 since 0 means "none".
+/// What a C3t3 calls things where no domain is at hand: the same numbers, but from 1 since 0 means "none".
 template <class C3t3>
-void set_location(C3t3& c3t3, typename C3t3::Vertex_handle vertex, const Vertex_location_3& location)
+struct Numbered_indices_3
 {
-  using Index = typename C3t3::Index;
-  const int number = location.index + 1;
-  switch (location.dimension) {
-  case 0:
-    c3t3.add_to_complex(vertex, index_from<typename C3t3::Corner_index>(number));
-    c3t3.set_index(vertex, Index(index_from<typename C3t3::Corner_index>(number)));
-    break;
-  case 1:
-    c3t3.set_index(vertex, Index(index_from<typename C3t3::Curve_index>(number)));
-    break;
-  case 2:
-    c3t3.set_index(vertex, Index(index_from<typename C3t3::Surface_patch_index>(number)));
-    break;
-  default:
-    c3t3.set_index(vertex, Index(index_from<typename C3t3::Subdomain_index>(location.index)));
+  typename C3t3::Corner_index corner_index(int i) const { return index_from<typename C3t3::Corner_index>(i + 1); }
+  typename C3t3::Curve_index curve_index(int i) const { return index_from<typename C3t3::Curve_index>(i + 1); }
+  typename C3t3::Surface_patch_index surface_patch_index(int i) const
+  {
+    return index_from<typename C3t3::Surface_patch_index>(i + 1);
   }
-  c3t3.set_dimension(vertex, location.dimension);
-}
+  typename C3t3::Subdomain_index subdomain_index(int i) const { return index_from<typename C3t3::Subdomain_index>(i); }
+  typename C3t3::Index index(const Vertex_location_3& at) const
+  {
+    using Index = typename C3t3::Index;
+    switch (at.dimension) {
+    case 0:
+      return Index(corner_index(at.index));
+    case 1:
+      return Index(curve_index(at.index));
+    case 2:
+      return Index(surface_patch_index(at.index));
+    default:
+      return Index(subdomain_index(at.index));
+    }
+  }
+};
 
 [[noreturn]] inline void refuse_cell(std::size_t cell, const char* what)
 {
@@ -96,9 +100,10 @@ void set_location(C3t3& c3t3, typename C3t3::Vertex_handle vertex, const Vertex_
 }
 
 /// Adds all elements of the mesh to the complex. \param vertex the vertices of the triangulation, in the mesh's order.
-template <class C3t3, class K>
+/// \param indices what they are called.
+template <class C3t3, class K, class Indices>
 void add_elements(C3t3& c3t3, const Tetrahedral_mesh_3<K>& mesh,
-                  const std::vector<typename C3t3::Vertex_handle>& vertex)
+                  const std::vector<typename C3t3::Vertex_handle>& vertex, const Indices& indices)
 {
   const auto& triangulation = c3t3.triangulation();
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -106,7 +111,7 @@ void add_elements(C3t3& c3t3, const Tetrahedral_mesh_3<K>& mesh,
     typename C3t3::Cell_handle cell;
     if (!triangulation.is_cell(vertex[v[0]], vertex[v[1]], vertex[v[2]], vertex[v[3]], cell))
       refuse_cell(c, "isn't one of the Delaunay triangulation");
-    c3t3.add_to_complex(cell, index_from<typename C3t3::Subdomain_index>(mesh.subdomains[c]));
+    c3t3.add_to_complex(cell, indices.subdomain_index(mesh.subdomains[c]));
   }
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     const auto& v = mesh.facets[f];
@@ -114,13 +119,17 @@ void add_elements(C3t3& c3t3, const Tetrahedral_mesh_3<K>& mesh,
     int i = 0, j = 0, k = 0;
     if (!triangulation.is_facet(vertex[v[0]], vertex[v[1]], vertex[v[2]], cell, i, j, k))
       throw Domain_error("facet " + std::to_string(f) + " of the mesh isn't one of the triangulation", {}, {f});
-    c3t3.add_to_complex(cell, 6 - i - j - k, index_from<typename C3t3::Surface_patch_index>(mesh.patches[f] + 1));
+    c3t3.add_to_complex(cell, 6 - i - j - k, indices.surface_patch_index(mesh.patches[f]));
   }
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    c3t3.add_to_complex(vertex[mesh.edges[e][0]], vertex[mesh.edges[e][1]],
-                        index_from<typename C3t3::Curve_index>(mesh.creases[e] + 1));
+    c3t3.add_to_complex(vertex[mesh.edges[e][0]], vertex[mesh.edges[e][1]], indices.curve_index(mesh.creases[e]));
   // Last, for CGAL sets dimensions of its own while elements are added.
-  for (std::size_t v = 0; v < vertex.size(); ++v) set_location(c3t3, vertex[v], mesh.locations[v]);
+  for (std::size_t v = 0; v < vertex.size(); ++v) {
+    const Vertex_location_3& at = mesh.locations[v];
+    if (at.dimension == 0) c3t3.add_to_complex(vertex[v], indices.corner_index(at.index));
+    c3t3.set_index(vertex[v], indices.index(at));
+    c3t3.set_dimension(vertex[v], at.dimension);
+  }
 }
 
 /// A vertex or cell of CGAL's that a container will number; copies would keep the number of their original.
@@ -155,6 +164,7 @@ struct Cell_copier_3
 template <class Wanted = void, class K>
 internal::C3t3_or_default<Wanted, K> to_c3t3(const Tetrahedral_mesh_3<K>& mesh)
 {
+  const internal::Numbered_indices_3<internal::C3t3_or_default<Wanted, K>> indices;
   using C3t3 = internal::C3t3_or_default<Wanted, K>;
   using Vertex_handle = typename C3t3::Vertex_handle;
   C3t3 c3t3;
@@ -169,16 +179,19 @@ internal::C3t3_or_default<Wanted, K> to_c3t3(const Tetrahedral_mesh_3<K>& mesh)
     vertex[v] = triangulation.insert(typename C3t3::Triangulation::Weighted_point(p), hint);
     hint = vertex[v]->cell();
   }
-  internal::add_elements(c3t3, mesh, vertex);
+  internal::add_elements(c3t3, mesh, vertex, indices);
   return c3t3;
 }
 
 /// Makes a C3t3 of a mesh by copying the Delaunay triangulation that holds its cells, whatever way ties were broken
 /// there. Vertices that aren't of the mesh are left out, the corners of weft's box among them. O(n log n)
 /// time.
+/// \param indices what corners, creases, patches and subdomains are called in the C3t3, see Mesh_domain_oracle_3.
 /// \throws Domain_error if a vertex or cell of the mesh isn't one of the triangulation.
-template <class Wanted = void, class K>
-internal::C3t3_or_default<Wanted, K> to_c3t3(const Mesh_triangulation_3<K>& source, const Tetrahedral_mesh_3<K>& mesh)
+template <class Wanted = void, class K,
+          class Indices = internal::Numbered_indices_3<internal::C3t3_or_default<Wanted, K>>>
+internal::C3t3_or_default<Wanted, K> to_c3t3(const Mesh_triangulation_3<K>& source, const Tetrahedral_mesh_3<K>& mesh,
+                                             const Indices& indices = Indices())
 {
   using C3t3 = internal::C3t3_or_default<Wanted, K>;
   using Target = typename C3t3::Triangulation;
@@ -207,15 +220,35 @@ internal::C3t3_or_default<Wanted, K> to_c3t3(const Mesh_triangulation_3<K>& sour
       throw Domain_error("vertex " + std::to_string(v) + " of the mesh isn't one of the triangulation", {v}, {});
   // Before anything is added: facets are marked on both sides, and cells beside the boundary go with such a vertex.
   for (const Vertex_handle v : others) target.remove(v);
-  internal::add_elements(c3t3, mesh, vertex);
+  internal::add_elements(c3t3, mesh, vertex, indices);
   return c3t3;
 }
 
-/// Makes a C3t3 of what `make_mesh_3()` returns, as above.
-template <class Wanted = void, class Oracle>
-internal::C3t3_or_default<Wanted, typename Oracle::Kernel> to_c3t3(const Restricted_delaunay_3<Oracle>& restricted)
+/// Makes a C3t3 of what `make_mesh_3()` returns, as above, with the centers of the surface Delaunay balls of its
+/// boundary facets, which CGAL's criteria and optimisers look at.
+template <class Wanted = void, class Oracle,
+          class Indices = internal::Numbered_indices_3<internal::C3t3_or_default<Wanted, typename Oracle::Kernel>>>
+internal::C3t3_or_default<Wanted, typename Oracle::Kernel> to_c3t3(const Restricted_delaunay_3<Oracle>& restricted,
+                                                                   const Indices& indices = Indices())
 {
-  return to_c3t3<Wanted>(restricted.triangulation(), tetrahedral_mesh(restricted));
+  using Point = typename Oracle::Kernel::Point_3;
+  auto c3t3 = to_c3t3<Wanted>(restricted.triangulation(), tetrahedral_mesh(restricted), indices);
+  using C3t3 = decltype(c3t3);
+  std::map<Point, typename C3t3::Vertex_handle> vertex_at;
+  for (const auto v : c3t3.triangulation().finite_vertex_handles()) vertex_at[Point(v->point().point())] = v;
+  for (const auto& f : restricted.facets()) {
+    if (f.cell == typename Restricted_delaunay_3<Oracle>::Cell_handle() || !restricted.is_boundary(f)) continue;
+    typename C3t3::Cell_handle cell;
+    int i, j, k;
+    const auto vertex = [&](int n) { return vertex_at.at(f.cell->vertex((f.index + n) & 3)->point()); };
+    c3t3.triangulation().is_facet(vertex(1), vertex(2), vertex(3), cell, i, j, k);
+    const auto neighbour = cell->neighbor(6 - i - j - k);
+    for (const auto& [c, n] : {std::pair(cell, 6 - i - j - k), std::pair(neighbour, neighbour->index(cell))}) {
+      c->set_facet_surface_center(n, f.steiner);
+      c->set_facet_surface_center_index(n, indices.index({2, f.patch}));
+    }
+  }
+  return c3t3;
 }
 
 } // namespace weft
