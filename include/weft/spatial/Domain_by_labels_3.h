@@ -32,8 +32,7 @@ namespace weft {
 /// Base of such oracles.
 /// \tparam Derived has `label(point)`, 0 for the outside, called only within the bounding box, and
 ///         `patch(from, to, a, b)`, the number of the patch between the points a and b, which are very near to each
-///         other and have the labels `from` and `to`. It may have `crossing(p, q, from, to)` of its own, and calls
-///         `find_seeds()` when it is ready.
+///         other and have the labels `from` and `to`. It calls `find_seeds()` when it is ready.
 /// \tparam K a CGAL kernel whose coordinates are doubles.
 template <class Derived, class K>
 class Domain_by_labels_3 : public No_folds_3<K>
@@ -95,10 +94,10 @@ public:
   /// Whether the boundary comes as near to p as that; if only just, that may escape.
   bool is_within(const Point& p, double squared_distance) const
   {
-    const int label = subdomain(p);
+    const auto label = derived().side(p);
     const double radius = std::sqrt(squared_distance);
     for (const auto& d : directions)
-      if (subdomain(moved(p, d, radius)) != label) return true;
+      if (derived().meets(p, label, moved(p, d, radius))) return true;
     const Surface_hit_3<K> hit = closest(p);
     return hit.patch >= 0 && distance(p, hit.point) <= radius;
   }
@@ -110,6 +109,21 @@ public:
     for (const double r : {radius, 0.5 * radius})
       for (const auto& d : directions)
         if (subdomain(moved(p, d, r)) != label) return false;
+    return true;
+  }
+
+  // ---- what a derived class may know better
+
+  /// What `meets()` and `first_hit()` have to know of a point.
+  int side(const Point& p) const { return subdomain(p); }
+  /// Whether the segment pq meets the boundary.
+  bool meets(const Point&, int at_p, const Point& q) const { return subdomain(q) != at_p; }
+  /// A point where the segment pq meets the boundary, about the first; whether there is one.
+  bool first_hit(const Point& p, int at_p, const Point& q, Surface_hit_3<K>& hit) const
+  {
+    const int at_q = subdomain(q);
+    if (at_p == at_q) return false;
+    hit = derived().crossing(p, q, at_p, at_q);
     return true;
   }
 
@@ -208,49 +222,45 @@ private:
   /// the boundary there, as often as that leads nearer.
   Surface_hit_3<K> project(const Point& p, int patch) const
   {
-    const int label = subdomain(p);
+    const int side = derived().side(p);
     Surface_hit_3<K> best{p, -1};
     for (double radius = first_radius * diagonal_; best.patch < 0 && radius < 2 * diagonal_; radius *= 3)
-      look_around(p, label, radius, patch, best);
+      for (const auto& d : directions) look_along(p, side, d, radius, patch, best);
     if (best.patch < 0) return best;
     for (int k = 0; k < most_turns; ++k) {
       const double from = distance(p, best.point);
       if (!(from > 10 * precision * diagonal_)) break;
       internal::Xyz_3 normal;
-      if (!normal_at(p, label, best, normal)) break;
-      look_along(p, label, normal, 1.0001 * from, patch, best);
+      if (!normal_at(p, best, normal)) break;
+      look_along(p, side, normal, 1.0001 * from, patch, best);
       if (!(distance(p, best.point) < (1 - least_gain) * from)) break;
     }
     return best;
   }
 
-  void look_around(const Point& p, int label, double radius, int patch, Surface_hit_3<K>& best) const
-  {
-    for (const auto& d : directions) look_along(p, label, d, radius, patch, best);
-  }
-
-  /// Takes a change of label within `radius` from p in a direction if it is of the patch and nearer than the best.
-  void look_along(const Point& p, int label, const internal::Xyz_3& direction, double radius, int patch,
+  /// Takes a point of the boundary within `radius` from p in a direction if it is of the patch and nearer than the
+  /// best.
+  void look_along(const Point& p, int side, const internal::Xyz_3& direction, double radius, int patch,
                   Surface_hit_3<K>& best) const
   {
     if (best.patch >= 0) radius = (std::min)(radius, distance(p, best.point));
-    Point from = p;
     const Point end = moved(p, direction, radius);
-    const int at_end = subdomain(end);
-    for (int k = 0; k < most_layers && label != at_end; ++k) {
-      const Surface_hit_3<K> hit = derived().crossing(from, end, label, at_end);
+    Point from = p;
+    Surface_hit_3<K> hit{p, -1};
+    for (int k = 0; k < most_layers && derived().first_hit(from, side, end, hit); ++k) {
       if (patch == any_patch || hit.patch == patch) {
         if (best.patch < 0 || distance(p, hit.point) < distance(p, best.point)) best = hit;
         return;
       }
       from = moved(hit.point, direction, 4 * precision * diagonal_); // p lies in a third subdomain
-      label = subdomain(from);
+      if (!(distance(p, from) < radius)) return;
+      side = derived().side(from);
     }
   }
 
   /// Direction of the boundary's normal, from p to it, out of three points where lines parallel to that from p to a
   /// point of the boundary cross it. Whether they do.
-  bool normal_at(const Point& p, int label, const Surface_hit_3<K>& hit, internal::Xyz_3& normal) const
+  bool normal_at(const Point& p, const Surface_hit_3<K>& hit, internal::Xyz_3& normal) const
   {
     using internal::Xyz_3;
     const double length = distance(p, hit.point);
@@ -268,11 +278,10 @@ private:
     std::array<double, 2> slope;
     const double step = 0.2 * length;
     for (int k = 0; k < 2; ++k) {
-      const Point foot = moved(p, k == 0 ? u : v, step), end = moved(foot, along, 2 * length);
-      const int at_end = subdomain(end);
-      if (subdomain(foot) != label || at_end == label) return false;
-      slope[static_cast<std::size_t>(k)] =
-          (distance(foot, derived().crossing(foot, end, label, at_end).point) - length) / step;
+      const Point foot = moved(p, k == 0 ? u : v, step);
+      Surface_hit_3<K> beside{p, -1};
+      if (!derived().first_hit(foot, derived().side(foot), moved(foot, along, 2 * length), beside)) return false;
+      slope[static_cast<std::size_t>(k)] = (distance(foot, beside.point) - length) / step;
     }
     for (std::size_t k = 0; k < 3; ++k) normal[k] = along[k] - slope[0] * u[k] - slope[1] * v[k];
     const double n = internal::norm(normal);

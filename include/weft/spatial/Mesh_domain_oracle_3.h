@@ -121,6 +121,20 @@ public:
     return Base::crossing(p, q, at_p, at_q);
   }
 
+  // Where segments are exact and points dear to locate, as in polyhedral domains, labels aren't asked for.
+  int side(const Point& p) const { return is_precise_ ? 0 : Base::side(p); }
+  bool meets(const Point& p, int at_p, const Point& q) const
+  {
+    return is_precise_ ? bool(domain_->do_intersect_surface_object()(Segment(p, q))) : Base::meets(p, at_p, q);
+  }
+  bool first_hit(const Point& p, int at_p, const Point& q, Surface_hit_3<Kernel>& hit) const
+  {
+    if (!is_precise_) return Base::first_hit(p, at_p, q, hit);
+    const auto [point, index, dimension] = domain_->construct_intersection_object()(Segment(p, q));
+    if (dimension > 0) hit = {point, patches_.number(domain_->surface_patch_index(index))};
+    return dimension > 0;
+  }
+
   /// The patch that the domain sees between two points; where it sees none, the one seen last between such subdomains.
   int patch(int from, int to, const Point& a, const Point& b) const
   {
