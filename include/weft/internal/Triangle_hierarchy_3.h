@@ -77,7 +77,8 @@ public:
     });
   }
 
-  /// 1 inside, 0 outside and on the surface, if the surface is closed.
+  /// The subdomain that a point lies in, 0 outside and on the surface, if the surface is closed. On the way to the
+  /// outside every crossing changes the subdomain; the changes cancel out by exclusive or, in whatever order they come.
   int subdomain(const Point& p) const
   {
     const Xyz_3 x = xyz(p);
@@ -90,17 +91,18 @@ public:
       if (box_.high[k] - x[k] < shortest) shortest = box_.high[k] - x[k], axis = k, upwards = true;
     }
     const std::array<float, 3> from = rounded(framed(p));
-    int parity = 0;
+    int label = 0;
     const bool on_surface = boxes_.visit_ray(from, axis, upwards, [&](std::uint32_t block) {
       for (unsigned bits = blocks_[block].line_candidates(from, axis), lane = 0; bits; bits >>= 1, ++lane) {
         if (!(bits & 1)) continue;
-        const Ray_event event = ray_event(p, axis, upwards, triangles_[4 * block + lane]);
+        const Triangle& triangle = triangles_[4 * block + lane];
+        const Ray_event event = ray_event(p, axis, upwards, triangle);
         if (event == Ray_event::starts_on_triangle) return true;
-        parity ^= event == Ray_event::crossing;
+        if (event == Ray_event::crossing) label ^= triangle.change;
       }
       return false;
     });
-    return on_surface ? 0 : parity;
+    return on_surface ? 0 : label;
   }
 
   /// Nearest point of the surface; equally near ones: that of the triangle with the smallest index.

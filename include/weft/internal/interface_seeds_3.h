@@ -6,6 +6,7 @@
 #ifndef WEFT_INTERNAL_INTERFACE_SEEDS_3_H
 #define WEFT_INTERNAL_INTERFACE_SEEDS_3_H
 
+#include <weft/internal/Disjoint_parts.h>
 #include <weft/internal/farthest_points_3.h>
 #include <weft/spatial/oracle_hits_3.h>
 
@@ -62,29 +63,6 @@ private:
   std::array<int, 3> n_;
   std::array<double, 3> low_;
   double step_;
-};
-
-/// Sets that are united.
-class Disjoint_parts
-{
-public:
-  explicit Disjoint_parts(std::size_t n) : parent_(n)
-  {
-    for (std::size_t i = 0; i < n; ++i) parent_[i] = i;
-  }
-  std::size_t find(std::size_t i)
-  {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::size_t i, std::size_t j)
-  {
-    i = find(i), j = find(j);
-    parent_[(std::max)(i, j)] = (std::min)(i, j);
-  }
-
-private:
-  std::vector<std::size_t> parent_;
 };
 
 /// By patch and connected part, points of it. Parts hang together where they cross the same cube.

@@ -33,6 +33,7 @@ struct Surface_triangle_3
   std::array<std::uint32_t, 3> vertices;
   std::uint32_t index;
   int patch;
+  int change = 1; ///< exclusive or of the subdomains on its two sides
 };
 
 /// An approximate value and its exact sign.
@@ -153,6 +154,7 @@ public:
   bool is_degenerate() const { return !of_p_ || !of_q_ || !edges_[0].sign || !edges_[1].sign || !edges_[2].sign; }
 
   int patch() const { return t_.patch; }
+  int change() const { return t_.change; }
 
   /// Whether the moved segment crosses the triangle.
   bool crosses() const

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -55,6 +56,8 @@ struct Piecewise_smooth_complex_3
   std::vector<int> shells;       ///< of each triangle, from 0 by first triangle: connected components of the surface
   std::vector<Crease> creases;   ///< in the order of their first two vertices
   std::vector<Feature> features; ///< in the order of their vertices
+  /// Of each patch, the subdomains behind it and before it, where there are several; empty: 1 behind, 0 before.
+  std::vector<std::pair<int, int>> sides;
   int number_of_patches = 0;
   int number_of_shells = 0;
   std::vector<std::string> changes; ///< what was changed in the input, for people, one line each: shells turned over,

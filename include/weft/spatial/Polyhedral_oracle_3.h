@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The domain oracle of a closed triangle surface (Tournois 2009, sec. 3.3.1): all that meshing asks about a domain. On
-// which side of the boundary a point lies, where a segment meets the boundary, where a Voronoi facet meets the creases,
-// and the nearest point on the boundary, a patch or a crease. Which side and which triangle are decided by exact
-// predicates, rays and segments that graze an edge or a vertex included; the points are rounded to doubles and lie on
-// the boundary up to that rounding.
+// The domain oracle of a triangle surface, closed or the boundary of several subdomains (Tournois 2009, sec. 3.3.1):
+// all that meshing asks about a domain. On which side of the boundary a point lies, where a segment meets the boundary,
+// where a Voronoi facet meets the creases, and the nearest point on the boundary, a patch or a crease. Which side and
+// which triangle are decided by exact predicates, rays and segments that graze an edge or a vertex included; the points
+// are rounded to doubles and lie on the boundary up to that rounding.
 //
 // The hierarchies of boxes are weft's own because queries are most of the time of a mesher. Nanoseconds a query on one
 // thread, weft and CGAL 5.5's AABB tree, on the elephant surface of 5558 triangles (benchmark/oracle_throughput):
@@ -91,27 +91,28 @@ public:
     return CGAL::Bbox_3(box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2]);
   }
 
-  /// 1 inside; 0 outside and exactly on the boundary. Exact.
+  /// The subdomain, 1 where there is but one; 0 outside and exactly on the boundary. Exact.
   int subdomain(const Point& p) const { return surface_.subdomain(p); }
 
   /// Finds what the closed segment pq has in common with the boundary: appends each crossing and each touching of a
   /// triangle, an edge or a vertex once, in order from p to q, ties by coordinates. Where the segment runs within a
   /// triangle the ends of the piece are reported. On an edge or a vertex, the patch is that of the incident triangle
   /// with the smallest index.
-  /// \returns whether p and q lie on different sides: `subdomain(p) != subdomain(q)`, always.
+  /// \returns whether p and q lie in different subdomains: `subdomain(p) != subdomain(q)`, always.
   bool intersect(const Point& p, const Point& q, std::vector<Surface_hit_3<K>>& hits) const
   {
     const auto first = hits.size();
-    bool differ = false;
+    int change = 0;
     std::vector<Contact> contacts; // allocates only where something is degenerate
     surface_.visit_segment(p, q, [&](const auto& pair) {
-      differ ^= pair.crosses();
+      if (pair.crosses()) change ^= pair.change();
       if (pair.is_degenerate())
         pair.contacts([&](const Contact& contact) { contacts.push_back(contact); });
       else
         hits.push_back({pair.point(), pair.patch()});
       return false;
     });
+    bool differ = change != 0;
     if (!contacts.empty() && add_contacts(p, q, contacts, hits)) differ = subdomain(p) != subdomain(q);
     if (hits.size() - first > 1) sort_along(p, q, hits, first);
     return differ;
@@ -246,6 +247,10 @@ private:
       }
       triangle.index = static_cast<std::uint32_t>(t);
       triangle.patch = complex_.patches[t];
+      if (!complex_.sides.empty()) {
+        const auto& [behind, before] = complex_.sides[static_cast<std::size_t>(triangle.patch)];
+        triangle.change = behind ^ before;
+      }
       all.push_back(triangle);
       if (!of_patch.empty()) of_patch[triangle.patch].push_back(triangle);
     }
