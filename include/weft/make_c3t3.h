@@ -13,6 +13,8 @@
 #include <weft/spatial/Mesh_domain_oracle_3.h>
 #include <weft/spatial/to_c3t3.h>
 
+#include <cmath>
+
 namespace weft {
 
 /// Meshes a CGAL domain to CGAL criteria.
@@ -27,12 +29,14 @@ C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria, const Mesh_opti
                  Mesh_report_3* report = nullptr)
 {
   using Oracle = Mesh_domain_oracle_3<Domain>;
-  constexpr double smallest_detail = 5e-5; // in two diagonals: fandisk's creases part at 15 degrees
+  constexpr double smallest_detail = 1e-4; // in diagonals: fandisk's creases part at 15 degrees
   const Oracle oracle(domain);
   const auto own_criteria = cgal_criteria_3<C3t3>(criteria, oracle);
   Mesh_options_3 own_options = options;
-  own_options.lattice = false; // no size is known, only which cells are too large
-  if (options.size_floor == 0) own_options.size_floor = smallest_detail * own_criteria.size.constant();
+  const auto b = oracle.bbox();
+  if (options.size_floor == 0)
+    own_options.size_floor =
+        smallest_detail * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
   const auto result = make_mesh_3(oracle, own_criteria, own_options);
   if (report) *report = result.report;
   return to_c3t3<C3t3>(result.mesh, oracle);

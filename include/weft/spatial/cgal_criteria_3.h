@@ -71,6 +71,26 @@ public:
     return ratio(criteria_.cell_criteria_object()(triangulation_, cell_));
   }
 
+  /// Circumradius of the largest regular tetrahedron around a point that is good, up to 1e-6; at most `largest`.
+  double largest_radius(const Point& center, int subdomain, double largest)
+  {
+    const Vertex_location_3 inside{3, subdomain};
+    const auto is_good = [&](double radius) {
+      const double d = radius / std::sqrt(3.);
+      const Point a(center.x() + d, center.y() + d, center.z() + d), b(center.x() + d, center.y() - d, center.z() - d),
+          c(center.x() - d, center.y() + d, center.z() - d), e(center.x() - d, center.y() - d, center.z() + d);
+      return !(
+          (*this)(Cell_view_3<Kernel>{{{&a, &b, &c, &e}}, {{inside, inside, inside, inside}}, &center, subdomain}) > 1);
+    };
+    double low = 0;
+    for (double high = largest; high - low > 1e-6 * high;) {
+      const double middle = low == 0 && !is_good(1e-3 * high) ? 1e-3 * high : 0.5 * (low + high);
+      (is_good(middle) ? low : high) = middle;
+      if (high < 1e-9 * largest) break;
+    }
+    return low;
+  }
+
 private:
   template <std::size_t n>
   bool is_between_features(const std::array<const Point*, n>& points,
@@ -111,6 +131,28 @@ private:
   std::array<typename Triangulation::Vertex_handle, 4> vertices_;
 };
 
+/// The circumradius up to which cells are good, if that is the same in the whole domain; else 0. Looks at the points of
+/// a grid.
+template <class Probe, class Oracle>
+double constant_cell_radius(Probe& probe, const Oracle& oracle, double largest)
+{
+  constexpr int parts = 8;
+  const auto b = oracle.bbox();
+  double radius = 0;
+  for (int i = 1; i < parts; ++i)
+    for (int j = 1; j < parts; ++j)
+      for (int k = 1; k < parts; ++k) {
+        const auto at = [](double low, double high, int n) { return low + (high - low) * n / parts; };
+        const typename Oracle::Point p(at(b.xmin(), b.xmax(), i), at(b.ymin(), b.ymax(), j), at(b.zmin(), b.zmax(), k));
+        const int subdomain = oracle.subdomain(p);
+        if (subdomain == 0) continue;
+        const double here = probe.largest_radius(p, subdomain, largest);
+        if (radius > 0 && std::abs(here - radius) > 1e-4 * radius) return 0;
+        radius = here;
+      }
+  return radius < 0.9 * largest ? radius : 0;
+}
+
 } // namespace internal
 
 /// CGAL's criteria as weft's.
@@ -138,6 +180,9 @@ Criteria_3<typename Oracle::Kernel> cgal_criteria_3(const Criteria& criteria, co
   const auto probe =
       std::make_shared<internal::Criteria_probe_3<C3t3, Criteria, Oracle>>(criteria, oracle, result.crease_size);
   result.facet_demand = [probe](const Facet_view_3<Kernel>& facet) { return (*probe)(facet); };
+  // With edges of 1.8 circumradii, nearly as long as can be, a body-centred lattice has the radius just allowed.
+  const double radius = internal::constant_cell_radius(*probe, oracle, result.size.constant());
+  if (radius > 0) result.size = 1.8 * radius;
   result.cell_demand = [probe](const Cell_view_3<Kernel>& cell) { return (*probe)(cell); };
   return result;
 }
