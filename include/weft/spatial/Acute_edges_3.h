@@ -10,6 +10,7 @@
 #include <weft/internal/Box_hierarchy_3.h>
 #include <weft/internal/coordinates_3.h>
 #include <weft/internal/nearest_point_3.h>
+#include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ public:
           continue;
         }
         const double angle = smaller_dihedral(complex, t, other->second);
-        if (!(angle < largest_angle * degree)) continue;
+        if (!(angle < largest_angle * internal::radians_per_degree)) continue;
         const auto one = away_from(complex, t, a, b), two = away_from(complex, other->second, a, b);
         edges_.push_back({complex.points[a],
                           complex.points[b],
@@ -149,8 +150,6 @@ private:
       return bound;
     });
   }
-
-  static constexpr double degree = 3.14159265358979323846 / 180;
 
   /// At a distance of d the sides are about d times the angle apart; a ball of half of that can't mix them up.
   static double reach_at(double angle) { return 1 + 2 / (std::max)(angle, 0.01); }

@@ -86,6 +86,16 @@ Zone_result find_conflict_zone(const Triangulation& tr, const typename Triangula
   return result;
 }
 
+/// The same for a point by itself, whatever batches claim.
+/// \param near a cell to look for the point from.
+template <class Triangulation>
+Zone_result find_conflict_zone(const Triangulation& tr, const typename Triangulation::Point& point,
+                               typename Triangulation::Cell_handle near, Conflict_zone_3<Triangulation>& zone)
+{
+  constexpr int no_batch = -2; // cells without one have -1
+  return find_conflict_zone(tr, point, tr.locate(point, near), no_batch, zone);
+}
+
 /// Claims a zone and the cells next to it for a batch.
 template <class Triangulation>
 void claim(const Conflict_zone_3<Triangulation>& zone, int batch)

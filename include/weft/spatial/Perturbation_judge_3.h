@@ -50,12 +50,7 @@ public:
       : mesh_(&mesh), measure_(mesh, criteria, 1), guard_(mesh, criteria)
   {}
 
-  static Dihedral_cosines_3 cosines(Cell_handle c)
-  {
-    return cosines_of_extreme_dihedrals(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
-                                        c->vertex(3)->point());
-  }
-  static double measure(Cell_handle c) { return sliver_measure(cosines(c)); }
+  static double measure(Cell_handle c) { return sliver_measure(cosines_of_cell(c)); }
 
   /// No move may make an angle smaller than the one with this cosine.
   void set_floor(double cosine) { floor_ = cosine; }
@@ -68,7 +63,7 @@ public:
       Filler f{c, -1, -1, false, true};
       if (!Restricted::is_at_box(c)) {
         c->set_circumcenter(circumcenter_of_cell_3<Kernel>(c));
-        const Dihedral_cosines_3 x = cosines(c);
+        const Dihedral_cosines_3 x = cosines_of_cell(c);
         f = {c, sliver_measure(x), x.smallest, false, false};
       }
       filling_.push_back(f);
@@ -78,8 +73,7 @@ public:
   /// Finds the zone of a point; `near` is where to look from.
   bool find_zone(const Point& p, Cell_handle near)
   {
-    const auto& tr = mesh_->triangulation();
-    return find_conflict_zone(tr, p, tr.locate(p, near), no_batch, zone_) == Zone_result::found;
+    return find_conflict_zone(mesh_->triangulation(), p, near, zone_) == Zone_result::found;
   }
   const Zone& zone() const { return zone_; }
 
@@ -100,7 +94,8 @@ public:
       return worst >= limit;
     };
     for (Filler& f : filling_)
-      if (f.cell->id() != -stamp_ && f.measure > worst && is_inside(f) && exceeds(cosines(f.cell))) return no_good;
+      if (f.cell->id() != -stamp_ && f.measure > worst && is_inside(f) && exceeds(cosines_of_cell(f.cell)))
+        return no_good;
     for (const auto& facet : zone_.hull) {
       std::array<Point, 4> p;
       if (!corners(facet, p)) continue;
@@ -157,8 +152,6 @@ public:
   void forget(int id) { guard_.forget(id); }
 
 private:
-  static constexpr int no_batch = -2;
-
   /// A cell that fills the place of a vertex taken away.
   struct Filler
   {

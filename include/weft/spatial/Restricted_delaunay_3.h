@@ -129,9 +129,9 @@ public:
   Vertex_handle insert(const Point& p, const Vertex_location_3& location)
   {
     Zone zone;
-    const Cell_handle start = tr_->locate(p, vertices_.empty() ? Cell_handle() : vertices_.back()->cell());
-    const Zone_result result = find_conflict_zone(*tr_, p, start, no_batch, zone);
-    if (result == Zone_result::no_conflict) return tr_->nearest_vertex(p, start);
+    const Cell_handle near = vertices_.empty() ? Cell_handle() : vertices_.back()->cell();
+    const Zone_result result = find_conflict_zone(*tr_, p, near, zone);
+    if (result == Zone_result::no_conflict) return tr_->nearest_vertex(p, near);
     if (result != Zone_result::found) return Vertex_handle();
     const Vertex_handle v = insert(zone, location);
     creases_are_stale_ = true;
@@ -285,8 +285,7 @@ public:
     creases_are_stale_ = true;
     Cell_handle hint = vertices_.empty() ? Cell_handle() : vertices_.back()->cell();
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Point& p = points[i];
-      if (find_conflict_zone(*tr_, p, tr_->locate(p, hint), no_batch, zone) != Zone_result::found) continue;
+      if (find_conflict_zone(*tr_, points[i], hint, zone) != Zone_result::found) continue;
       hint = insert(zone, {3, subdomains[i]})->cell();
       new_cells_.clear(); // some of them don't live to see the end
     }
@@ -364,7 +363,6 @@ public:
   }
 
 private:
-  static constexpr int no_batch = -2;
   /// Part of the vertices to move one by one rather than to build anew. A vertex takes 40 us by itself and 3 us in a
   /// new triangulation, which flips needn't then have mended.
   static constexpr double most_alone = 0.05;
@@ -409,9 +407,8 @@ private:
     const Vertex_location_3 location = v->location();
     const Cell_handle near = take_away(v).front();
     Zone zone;
-    const bool found =
-        find_conflict_zone(*tr_, target, tr_->locate(target, near), no_batch, zone) == Zone_result::found;
-    if (!found) find_conflict_zone(*tr_, old, tr_->locate(old, near), no_batch, zone);
+    const bool found = find_conflict_zone(*tr_, target, near, zone) == Zone_result::found;
+    if (!found) find_conflict_zone(*tr_, old, near, zone);
     insert(zone, location, id);
     new_cells_.clear();
     return found;

@@ -12,6 +12,7 @@
 #include <weft/internal/Box_hierarchy_3.h>
 #include <weft/internal/coordinates_3.h>
 #include <weft/internal/nearest_point_3.h>
+#include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 
 #include <algorithm>
@@ -47,9 +48,8 @@ public:
   /// O(n log n).
   Salient_features_3(const Piecewise_smooth_complex_3<K>& complex, const Bends& bends)
   {
-    const double degree = 3.14159265358979323846 / 180;
-    const Bends cosines{std::cos(bends.fold * degree), std::cos(bends.ridge * degree), std::cos(bends.sharp * degree),
-                        std::cos(bends.acute * degree)};
+    const Bends cosines{cosine_of_degrees(bends.fold), cosine_of_degrees(bends.ridge), cosine_of_degrees(bends.sharp),
+                        cosine_of_degrees(bends.acute)};
     std::vector<char> is_end(complex.points.size(), false);
     std::vector<int> patch(complex.points.size(), -1);
     std::vector<double> angle(complex.points.size(), 0);

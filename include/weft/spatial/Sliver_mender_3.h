@@ -121,7 +121,7 @@ public:
 private:
   bool is_sliver(Cell_handle c) const
   {
-    const Dihedral_cosines_3 x = Judge::cosines(c);
+    const Dihedral_cosines_3 x = cosines_of_cell(c);
     return sliver_measure(x) > bound_ || x.smallest > floor_;
   }
 
@@ -197,7 +197,7 @@ private:
     if (around.empty()) return false;
     const int id = around[random_() % around.size()];
     const double depth = deepest_kick + (1 - deepest_kick) * random_() / 4294967295.0;
-    const double bound = std::cos(depth * std::acos((std::min)(1.0, bound_)));
+    const double bound = cosine_of_degrees(depth * degrees_of_cosine(bound_));
     bool changed = false;
     switch (random_() % 4) {
     case 0:

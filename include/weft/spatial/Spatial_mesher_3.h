@@ -232,10 +232,8 @@ private:
   {
     double worst = -1;
     for (const auto c : mesh_.triangulation().finite_cell_handles())
-      if (c->subdomain() != 0)
-        worst = (std::max)(worst, cosine_of_smallest_dihedral(c->vertex(0)->point(), c->vertex(1)->point(),
-                                                              c->vertex(2)->point(), c->vertex(3)->point()));
-    return std::acos((std::max)(-1.0, (std::min)(1.0, worst))) * 180 / 3.14159265358979323846;
+      if (c->subdomain() != 0) worst = (std::max)(worst, cosines_of_cell(c).smallest);
+    return degrees_of_cosine(worst);
   }
 
   void perturb()

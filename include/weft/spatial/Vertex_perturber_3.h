@@ -11,6 +11,7 @@
 
 #include <weft/spatial/Perturb_options_3.h>
 #include <weft/spatial/Perturbation_judge_3.h>
+#include <weft/spatial/project_on_location_3.h>
 #include <weft/spatial/sliver_gradients_3.h>
 
 #include <CGAL/number_utils.h>
@@ -325,8 +326,7 @@ private:
   double try_at(Point p, std::size_t Perturb_report_3::*direction)
   {
     ++report_.trials;
-    if (location_.dimension == 1) p = mesh_.oracle().project_on_crease(p, location_.index);
-    if (location_.dimension == 2) p = mesh_.oracle().project_on_patch(p, location_.index).point;
+    p = project_on_location(mesh_.oracle(), p, location_);
     if (location_.dimension == 3 && mesh_.oracle().subdomain(p) != location_.index) return Judge::no_good;
     if (!judge_.find_zone(p, near_)) return Judge::no_good;
     const double measure = judge_.judge(limit_);

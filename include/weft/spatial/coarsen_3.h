@@ -75,7 +75,7 @@ public:
 
   Coarsen_report_3 run()
   {
-    bound_ = std::cos(options_.min_dihedral_angle * degree);
+    bound_ = cosine_of_degrees(options_.min_dihedral_angle);
     while (static_cast<int>(report_.passes) < options_.most_passes && goes_on_) {
       const std::size_t before = report_.removed;
       run_pass();
@@ -104,17 +104,15 @@ private:
     }
   }
 
-  /// Interior vertices among excellent cells aren't tried: those of a lattice, which is as sparse as its size allows. On a
-  /// ball of 58,000 vertices that halves the time and leaves the same mesh.
+  /// Interior vertices among excellent cells aren't tried: those of a lattice, which is as sparse as its size allows.
+  /// On a ball of 58,000 vertices that halves the time and leaves the same mesh.
   void leave_excellent()
   {
-    const double smallest = std::cos(excellent_smallest * degree), largest = std::cos(excellent_largest * degree);
+    const double smallest = cosine_of_degrees(smallest_excellent_dihedral),
+                 largest = cosine_of_degrees(largest_excellent_dihedral);
     std::vector<char> is_excellent(is_promising_.size(), true);
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (Restricted::is_at_box(c)) continue;
-      const Dihedral_cosines_3 angles = cosines_of_extreme_dihedrals(c->vertex(0)->point(), c->vertex(1)->point(),
-                                                                     c->vertex(2)->point(), c->vertex(3)->point());
-      if (angles.smallest <= smallest && angles.largest >= largest) continue;
+      if (Restricted::is_at_box(c) || has_dihedrals_between(c, smallest, largest)) continue;
       for (int i = 0; i < 4; ++i) is_excellent[static_cast<std::size_t>(c->vertex(i)->id())] = false;
     }
     for (const Vertex_handle v : mesh_.vertices())
@@ -149,8 +147,7 @@ private:
       }
     }
     is_promising_[static_cast<std::size_t>(id)] = false;
-    find_conflict_zone(mesh_.triangulation(), origin, mesh_.triangulation().locate(origin, filling_.front()), no_batch,
-                       zone_); // always found: it was there before
+    find_conflict_zone(mesh_.triangulation(), origin, filling_.front(), zone_); // always found: it was there before
     mesh_.put_back(zone_, location, id, filling_);
     return false;
   }
@@ -169,25 +166,15 @@ private:
     mesh_.triangulation().incident_cells(v, std::back_inserter(star_));
     double worst = -1;
     for (const Cell_handle c : star_)
-      if (c->subdomain() != 0) worst = (std::max)(worst, cosine(c));
+      if (c->subdomain() != 0) worst = (std::max)(worst, cosines_of_cell(c).smallest);
     return worst;
   }
 
   bool keeps_angles(double limit) const
   {
     return std::all_of(filling_.begin(), filling_.end(),
-                       [&](Cell_handle c) { return c->subdomain() == 0 || cosine(c) <= limit; });
+                       [&](Cell_handle c) { return c->subdomain() == 0 || cosines_of_cell(c).smallest <= limit; });
   }
-
-  static double cosine(Cell_handle c)
-  {
-    return cosine_of_smallest_dihedral(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
-                                       c->vertex(3)->point());
-  }
-
-  static constexpr int no_batch = -2;
-  static constexpr double degree = 3.14159265358979323846 / 180;
-  static constexpr double excellent_smallest = 45, excellent_largest = 95; ///< degrees, as in smoothing
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted> guard_;

@@ -13,6 +13,10 @@
 
 namespace weft {
 
+namespace internal {
+constexpr double radians_per_degree = 3.14159265358979323846 / 180;
+}
+
 /// Cosines of the smallest and the largest dihedral angle of a tetrahedron.
 struct Dihedral_cosines_3
 {
@@ -52,6 +56,37 @@ double cosine_of_smallest_dihedral(const Point& a, const Point& b, const Point& 
 {
   return cosines_of_extreme_dihedrals(a, b, c, d).smallest;
 }
+
+/// The same of a cell of a triangulation.
+template <class Cell_handle>
+Dihedral_cosines_3 cosines_of_cell(Cell_handle c)
+{
+  return cosines_of_extreme_dihedrals(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                                      c->vertex(3)->point());
+}
+
+/// The angle of a cosine, in degrees; cosines that rounding has brought out of [-1, 1] count as the nearest in it.
+inline double degrees_of_cosine(double cosine)
+{
+  return std::acos((std::max)(-1.0, (std::min)(1.0, cosine))) / internal::radians_per_degree;
+}
+
+inline double cosine_of_degrees(double degrees)
+{
+  return std::cos(degrees * internal::radians_per_degree);
+}
+
+/// Whether all dihedral angles of a cell lie between two angles, whose cosines are given.
+template <class Cell_handle>
+bool has_dihedrals_between(Cell_handle c, double cosine_of_least, double cosine_of_most)
+{
+  const Dihedral_cosines_3 angles = cosines_of_cell(c);
+  return angles.smallest <= cosine_of_least && angles.largest >= cosine_of_most;
+}
+
+/// Dihedral angles of excellent cells, in degrees: vertices among such cells are left alone (Tournois 2009,
+/// sec. 3.3.3).
+constexpr double smallest_excellent_dihedral = 45, largest_excellent_dihedral = 95;
 
 } // namespace weft
 

@@ -53,8 +53,6 @@ private:
   using Mender = Sliver_mender_3<Restricted>;
   using Judge = typename Mender::Judge;
 
-  static constexpr double degree = 3.14159265358979323846 / 180;
-
   /// A vertex of slivers: interior ones first, then those with fewer slivers, then the smaller angle, then the elder.
   struct Candidate
   {
@@ -72,8 +70,6 @@ private:
     }
   };
 
-  static double degrees(double cosine) { return std::acos((std::max)(-1.0, (std::min)(1.0, cosine))) / degree; }
-
   bool goes_on()
   {
     return !mender_.is_late() && report_.after < options_.target && (!options_.go_on || options_.go_on(report_.after));
@@ -83,12 +79,12 @@ private:
   /// \param most how many of those that are worse than the target are kept in `worst_`.
   void look_around(std::size_t most)
   {
-    const double target = std::cos(options_.target * degree);
+    const double target = cosine_of_degrees(options_.target);
     double smallest = -1;
     std::vector<std::pair<double, Cell_handle>> cells;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
       if (c->subdomain() == 0) continue;
-      const Dihedral_cosines_3 x = Judge::cosines(c);
+      const Dihedral_cosines_3 x = cosines_of_cell(c);
       smallest = (std::max)(smallest, x.smallest);
       if (most > 0 && sliver_measure(x) > target) cells.emplace_back(sliver_measure(x), c);
     }
@@ -101,7 +97,7 @@ private:
     worst_.clear();
     for (const auto& [measure, c] : cells) worst_.push_back(Mender::sliver_of(c, measure));
     std::sort(worst_.begin(), worst_.end());
-    report_.after = degrees(smallest);
+    report_.after = degrees_of_cosine(smallest);
     mender_.set_floor(smallest);
   }
 
@@ -110,7 +106,7 @@ private:
   void raise_bounds()
   {
     for (double bound = options_.first_bound; goes_on(); bound += options_.step) {
-      mender_.set_bound(std::cos((std::min)(bound, options_.target) * degree));
+      mender_.set_bound(cosine_of_degrees((std::min)(bound, options_.target)));
       for (int pass = 0; pass < options_.most_passes && goes_on(); ++pass) {
         std::size_t mended = run_pass();
         if (mended == 0 || pass >= passes_of_moves) mended += insert_vertices();

@@ -16,6 +16,7 @@
 #include <weft/spatial/Criteria_guard_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/Dynamic_sizing_3.h>
+#include <weft/spatial/project_on_location_3.h>
 #include <weft/spatial/smoothers_3.h>
 
 #include <CGAL/number_utils.h>
@@ -39,10 +40,11 @@ struct Smooth_options_3
   int max_sweeps = 20;
   double move_ratio = 0.01; ///< ends when no vertex moves farther, in parts of its size
   double lipschitz = 1;     ///< of the dynamic sizing field: by how much sizes grow per distance
-  double locked_smallest = 45,
-         locked_largest = 95; ///< vertices whose cells have all dihedral angles between these stay
-  bool uniform = false;       ///< measure lengths as they are instead of in the metric of the sizes that the mesh has
-  bool keep_criteria = true;  ///< move back what violates a criterion afterwards; else that is left to refinement
+  double locked_smallest = smallest_excellent_dihedral,
+         locked_largest =
+             largest_excellent_dihedral; ///< vertices whose cells have all dihedral angles between these stay
+  bool uniform = false;      ///< measure lengths as they are instead of in the metric of the sizes that the mesh has
+  bool keep_criteria = true; ///< move back what violates a criterion afterwards; else that is left to refinement
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
   int threads = 1;             ///< threads to use where oneTBB is linked; never changes the result
   std::function<bool()> go_on; ///< called before every sweep; false ends the run
@@ -208,14 +210,11 @@ private:
   std::vector<char> free_vertices()
   {
     std::vector<char> is_free(mesh_.vertices().size(), false), is_excellent(cells_.size());
-    const double smallest = std::cos(options_.locked_smallest * degree),
-                 largest = std::cos(options_.locked_largest * degree);
+    const double smallest = cosine_of_degrees(options_.locked_smallest),
+                 largest = cosine_of_degrees(options_.locked_largest);
     internal::parallel_for(cells_.size(), options_.threads, [&](std::size_t k) {
       const Cell_handle c = cells_[k];
-      if (c->subdomain() == 0) return;
-      const Dihedral_cosines_3 angles = cosines_of_extreme_dihedrals(c->vertex(0)->point(), c->vertex(1)->point(),
-                                                                     c->vertex(2)->point(), c->vertex(3)->point());
-      is_excellent[k] = angles.smallest <= smallest && angles.largest >= largest;
+      is_excellent[k] = c->subdomain() != 0 && has_dihedrals_between(c, smallest, largest);
     });
     for (const Cell_handle c : cells_)
       if (c->subdomain() != 0 && !is_excellent[static_cast<std::size_t>(c->id())])
@@ -245,7 +244,8 @@ private:
     const double step = relaxation_ * steps_[id], least = options_.move_ratio * sizing_(v);
     if (!(step * length > least)) return std::nullopt;
     const double reach = 0.5 * shortest_edge(v, star);
-    const Point p = on_own_place(v->point() + (std::min)(step, reach / length) * move, v->location());
+    const Point p =
+        project_on_location(mesh_.oracle(), v->point() + (std::min)(step, reach / length) * move, v->location());
     if (!(CGAL::to_double(CGAL::squared_distance(p, v->point())) > least * least)) return std::nullopt;
     if (v->location().dimension == 3 && mesh_.oracle().subdomain(p) != v->location().index) return std::nullopt;
     return p;
@@ -259,13 +259,6 @@ private:
         if (c->vertex(i) != v)
           shortest = (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(c->vertex(i)->point(), v->point())));
     return std::sqrt(shortest);
-  }
-
-  Point on_own_place(const Point& p, const Vertex_location_3& at) const
-  {
-    if (at.dimension == 1) return mesh_.oracle().project_on_crease(p, at.index);
-    if (at.dimension == 2) return mesh_.oracle().project_on_patch(p, at.index).point;
-    return p;
   }
 
   // ---- what a sweep mustn't break
@@ -359,7 +352,7 @@ private:
 
   Point part_of_the_way(const Point& from, const Point& to, double part, const Vertex_location_3& at) const
   {
-    return on_own_place(from + part * (to - from), at);
+    return project_on_location(mesh_.oracle(), from + part * (to - from), at);
   }
 
   /// Moves that had to be shortened begin shorter in the next sweep.
@@ -388,7 +381,6 @@ private:
     return sum / 20;
   }
 
-  static constexpr double degree = 3.14159265358979323846 / 180;
   static constexpr double least_relaxation = 0.1, least_step = 0.05, least_part = 0.25;
   static constexpr int most_rounds = 20, most_rings = 4;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);

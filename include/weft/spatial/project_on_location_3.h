@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Brings a point back to where a vertex may lie: onto its own patch or crease (Tournois 2009, sec. 3.2.1.5).
+
+#ifndef WEFT_SPATIAL_PROJECT_ON_LOCATION_3_H
+#define WEFT_SPATIAL_PROJECT_ON_LOCATION_3_H
+
+#include <weft/spatial/Tetrahedral_mesh_3.h>
+
+namespace weft {
+
+/// The nearest point of the patch or crease that a location names; inside and at feature vertices the point itself.
+/// \tparam Oracle a domain oracle, see Polyhedral_oracle_3.h.
+template <class Oracle>
+typename Oracle::Kernel::Point_3 project_on_location(const Oracle& oracle, const typename Oracle::Kernel::Point_3& p,
+                                                     const Vertex_location_3& location)
+{
+  if (location.dimension == 1) return oracle.project_on_crease(p, location.index);
+  if (location.dimension == 2) return oracle.project_on_patch(p, location.index).point;
+  return p;
+}
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_PROJECT_ON_LOCATION_3_H
