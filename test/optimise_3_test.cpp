@@ -64,6 +64,7 @@ struct Bare_mesh
     std::vector<Restricted::Crease_edge> edges() const { return {}; }
   };
   No_creases creases() const { return {}; }
+  const Restricted::Restricted_facet* facet(Cell_handle, int) const { return nullptr; }
 };
 
 /// A vertex in the origin and others around it, at distance 1 or scattered; cells with centroids below a plane belong

@@ -191,7 +191,9 @@ TEST_CASE("vertices on creases may be taken away and put back or left out, and e
   Restricted& mesh = result.mesh;
   REQUIRE(mesh.creases().edges().size() > 10);
   std::mt19937 random(3);
-  weft::Perturbation_judge_3<Restricted> judge(mesh, criteria_of(0.4, 0.02));
+  const auto criteria = criteria_of(0.4, 0.02);
+  weft::Criteria_guard_3<Restricted> guard(mesh, criteria);
+  weft::Perturbation_judge_3<Restricted> judge(mesh, guard);
   for (int k = 0; k < 60; ++k) {
     const int id = static_cast<int>(random() % mesh.vertices().size());
     const auto v = mesh.vertices()[static_cast<std::size_t>(id)];

@@ -55,6 +55,9 @@ public:
   {
     double begin;
     Vertex_handle vertex;
+
+    bool operator==(const Visit& other) const { return begin == other.begin && vertex == other.vertex; }
+    bool operator!=(const Visit& other) const { return !(*this == other); }
   };
 
   explicit Crease_tracer_3(const Triangulation& tr) : tr_(&tr) {}
@@ -143,16 +146,18 @@ private:
   }
 
   template <class Touched>
-  bool update(Crease& crease, const Touched& touched) const
+  bool update(Crease& crease, const Touched& touched)
   {
     // The first stretch of a run of touched ones begins where it did: its vertex is no neighbour of one that is gone.
     const auto is_touched = [&](const Visit& v) { return v.vertex == Vertex_handle() || touched(v.vertex); };
+    std::vector<Visit>& renewed = renewed_;
+    renewed.clear();
     if (crease.visits.empty() || is_touched(crease.visits.front())) {
+      crease.visits.swap(renewed);
       trace(crease);
-      return true;
+      return renewed != crease.visits;
     }
     if (std::none_of(crease.visits.begin(), crease.visits.end(), is_touched)) return false;
-    std::vector<Visit> renewed;
     for (std::size_t i = 0; i < crease.visits.size();) {
       renewed.push_back(crease.visits[i]);
       if (!is_touched(crease.visits[i++])) continue;
@@ -161,8 +166,9 @@ private:
       follow(crease, last ? crease.end() : crease.visits[i].begin, last ? Vertex_handle() : crease.visits[i].vertex,
              renewed);
     }
-    crease.visits = std::move(renewed);
-    return true;
+    const bool changed = renewed != crease.visits;
+    crease.visits.swap(renewed);
+    return changed;
   }
 
   /// Goes on from the last of `visits` to position `end`, or until the cell of `until` is entered.
@@ -243,10 +249,15 @@ private:
   void mark_tangled(const std::vector<Visit>& visits, std::size_t first_edge)
   {
     const bool closes = visits.size() > 1 && visits.front().vertex == visits.back().vertex;
-    counts_.clear();
-    for (std::size_t k = closes ? 1 : 0; k < visits.size(); ++k) ++counts_[visits[k].vertex->id()];
+    const auto count = [this](Vertex_handle v) -> int& {
+      const auto k = static_cast<std::size_t>(v->id() + 1); // corners of the box have -1
+      if (k >= counts_.size()) counts_.resize(2 * k, 0);
+      return counts_[k];
+    };
+    for (std::size_t k = closes ? 1 : 0; k < visits.size(); ++k) ++count(visits[k].vertex);
     for (std::size_t e = first_edge; e < edges_.size(); ++e)
-      edges_[e].is_tangled |= counts_[edges_[e].source->id()] > 1 || counts_[edges_[e].target->id()] > 1;
+      edges_[e].is_tangled |= count(edges_[e].source) > 1 || count(edges_[e].target) > 1;
+    for (const Visit& visit : visits) count(visit.vertex) = 0;
   }
 
   void add_crossing(Vertex_handle a, Vertex_handle b, int crease, double position)
@@ -273,7 +284,8 @@ private:
   std::vector<Crease_edge> edges_;
   std::unordered_map<std::uint64_t, std::size_t> index_;
   std::vector<std::size_t> edges_of_crease_;
-  std::unordered_map<int, int> counts_; ///< visits by vertex
+  std::vector<int> counts_;    ///< visits by vertex, zero but while a crease is looked at
+  std::vector<Visit> renewed_; ///< scratch
   mutable std::vector<Vertex_handle> neighbours_;
   mutable Vertex_handle loaded_; ///< whose neighbours those are
   mutable double best_speed_ = 0;

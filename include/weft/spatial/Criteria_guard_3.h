@@ -2,7 +2,8 @@
 //
 // Watches that optimisation undoes nothing that refinement has achieved: which elements violate a criterion, lack a
 // topological disk, hang on an interior vertex or lie farther from the surface than any facet did at the start. What
-// was bad at the start is tolerated.
+// was bad at the start is tolerated. One guard may watch several stages one after the other: what they may not undo is
+// then what held before the first of them.
 
 #ifndef WEFT_SPATIAL_CRITERIA_GUARD_3_H
 #define WEFT_SPATIAL_CRITERIA_GUARD_3_H
@@ -59,17 +60,21 @@ public:
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
     const double rounding = 1e-6 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
     farthest_ = {rounding * rounding, rounding * rounding}; // all that is seen on flat patches
-    for (const int record : all.facets) farthest_.raise_to(deviation_.of(facet(record)));
+    // Most facets needn't be measured, once a far one is known: a quarter of the time.
+    for (const int record : all.facets) farthest_.raise_to(deviation_.beyond(farthest_, facet(record)));
     farthest_.shrink(closer * closer);
     farthest_of_crease_ = rounding * rounding;
     for (const Crease_edge& e : mesh.creases().edges())
       farthest_of_crease_ = (std::max)(farthest_of_crease_, deviation_.of(e));
-    visit_bad(all, [this](const Element& e, const Grade& grade) { tolerated_[e] = grade; });
+    tolerate(all);
     for (int p = 0; p < mesh.oracle().number_of_patches(); ++p)
       if (mesh.number_of_facets(p) > 0) patches_.push_back(p);
     for (std::size_t c = 0; c < mesh.creases().number_of_creases(); ++c)
       if (mesh.creases().number_of_edges(c) > 0) creases_.push_back(c);
   }
+
+  const Restricted& mesh() const { return mesh_; }
+  const Badness_measure_3<Restricted>& measure() const { return measure_; }
 
   /// Before anything is classified: whether cells would be good if they belong to the domain, which their circumcenters
   /// decide. Sets those.
@@ -91,11 +96,13 @@ public:
     for (const Cell_handle c : mesh_.new_cells())
       if (c->subdomain() != 0 && offends(key(c), grade(c))) return Refusal_3::cell;
     for (const int record : mesh_.new_facets())
-      if (offends(key(facet(record)), grade(facet(record)))) return Refusal_3::facet;
+      if (offends(key(facet(record)), grade_by_criteria(facet(record)))) return Refusal_3::facet;
     for (const Cell_handle c : mesh_.new_cells())
       if (has_bad_crease_edge(c)) return Refusal_3::crease;
     for (const int id : boundary_vertices(mesh_.new_cells()))
       if (offends({id, -1, -1, -1}, grade(vertex(id)))) return Refusal_3::disk;
+    for (const int record : mesh_.new_facets()) // the dearest last
+      if (offends(key(facet(record)), grade_by_distance(facet(record)))) return Refusal_3::facet;
     return has_bare_part() ? Refusal_3::bare : Refusal_3::none;
   }
   bool accepts_change() const { return refusal() == Refusal_3::none; }
@@ -108,6 +115,28 @@ public:
       if (offends(e, grade)) bad.push_back(e);
     });
     return bad;
+  }
+
+  /// Tolerates what is bad now, too, as after changes that were judged by the elements that they made: how far the
+  /// surface is from a facet hangs on the facets around it, too. Linear in the size of the mesh.
+  void tolerate_all() { tolerate(everything()); }
+
+  /// To be called when all vertices get new numbers.
+  /// \param numbers the new ones by the old ones; -1 for vertices that are gone.
+  void renumber(const std::vector<int>& numbers)
+  {
+    std::map<Element, Grade> renumbered;
+    for (const auto& [element, grade] : tolerated_) {
+      Element ids = element;
+      bool exists = true;
+      for (int& id : ids) {
+        if (id < 0) continue;
+        id = numbers[static_cast<std::size_t>(id)];
+        exists = exists && id >= 0;
+      }
+      if (exists) renumbered[sorted(ids)] = grade;
+    }
+    tolerated_.swap(renumbered);
   }
 
   /// To be called when a vertex number gets another meaning: what was tolerated at it isn't any more.
@@ -173,6 +202,13 @@ private:
     return all;
   }
 
+  void tolerate(const Part& part)
+  {
+    visit_bad(part, [this](const Element& e, const Grade& grade) {
+      if (offends(e, grade)) tolerated_[e] = grade;
+    });
+  }
+
   /// Calls `visit(element, grade)` for the bad elements of a part, and for all bad crease edges.
   template <class Visit>
   void visit_bad(const Part& part, const Visit& visit) const
@@ -215,10 +251,24 @@ private:
 
   Grade grade(const Facet& f) const
   {
-    const Squared_deviation_3 d = deviation_.beyond(farthest_, f);
-    Grade grade{ratio(measure_.facet(f)), d.depth, d.height, 0};
+    Grade grade = grade_by_criteria(f);
+    const Grade distance = grade_by_distance(f);
+    grade.depth = distance.depth;
+    grade.height = distance.height;
+    return grade;
+  }
+
+  Grade grade_by_criteria(const Facet& f) const
+  {
+    Grade grade{ratio(measure_.facet(f)), 0, 0, 0};
     for (int i = 1; i < 4; ++i) grade.astray += f.cell->vertex((f.index + i) & 3)->location().dimension > 2;
     return grade;
+  }
+
+  Grade grade_by_distance(const Facet& f) const
+  {
+    const Squared_deviation_3 d = deviation_.beyond(farthest_, f);
+    return {0, d.depth, d.height, 0};
   }
 
   Grade grade(const Crease_edge& e) const

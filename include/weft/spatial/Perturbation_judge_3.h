@@ -9,10 +9,8 @@
 
 #include <weft/spatial/circumcenter_3.h>
 #include <weft/spatial/Conflict_zone_3.h>
-#include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/Criteria_guard_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
-#include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/Perturb_options_3.h>
 
 #include <CGAL/number_utils.h>
@@ -45,10 +43,11 @@ public:
   using Zone = typename Restricted::Zone;
 
   static constexpr double no_good = 3; ///< more than any sliver measure
+  /// By how much a change has to better what it is to mend: else bettering by ever less goes on forever.
+  static constexpr double least_gain = 1e-4;
 
-  Perturbation_judge_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
-      : mesh_(&mesh), measure_(mesh, criteria, 1), guard_(mesh, criteria)
-  {}
+  /// \param guard has to live as long as this object.
+  Perturbation_judge_3(const Restricted& mesh, Criteria_guard_3<Restricted>& guard) : mesh_(&mesh), guard_(guard) {}
 
   static double measure(Cell_handle c) { return sliver_measure(cosines_of_cell(c)); }
 
@@ -89,7 +88,8 @@ public:
       worst = sliver_measure(x);
       if (x.smallest > floor_) return true;
       if (worst < limit) return false;
-      if (!limit_is_final) limit = (std::max)(limit, worst_unmade()); // seldom needed: candidates mostly fail
+      if (!limit_is_final)
+        limit = (std::max)(limit, worst_unmade() - least_gain); // seldom needed: candidates mostly fail
       limit_is_final = true;
       return worst >= limit;
     };
@@ -125,7 +125,7 @@ public:
       std::array<Point, 4> p;
       if (!corners(facet, p)) return true;
       const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
-      return !measure_.cell({&p[0], &p[1], &p[2], &p[3]}, o).is_bad() || !is_inside(o);
+      return !guard_.measure().cell({&p[0], &p[1], &p[2], &p[3]}, o).is_bad() || !is_inside(o);
     });
   }
 
@@ -190,8 +190,7 @@ private:
   }
 
   const Restricted* mesh_;
-  Badness_measure_3<Restricted> measure_;
-  Criteria_guard_3<Restricted> guard_;
+  Criteria_guard_3<Restricted>& guard_;
   std::vector<Filler> filling_;
   Zone zone_;
   double floor_ = 1;

@@ -183,14 +183,19 @@ public:
     update();
   }
 
-  /// Gives the vertices new ids, in the order of the old ones, after some of them were taken away for good.
-  void close_gaps()
+  /// Gives the vertices new ids, in the order of the old ones, after some of them were taken away for good. \returns
+  /// the new ones by the old ones, -1 for vertices that are gone.
+  std::vector<int> close_gaps()
   {
+    std::vector<int> numbers;
+    int next = 0;
+    for (const Vertex_handle v : vertices_) numbers.push_back(v == Vertex_handle() ? -1 : next++);
     vertices_.erase(std::remove(vertices_.begin(), vertices_.end(), Vertex_handle()), vertices_.end());
     for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i]->set_id(static_cast<int>(i));
     touched_.assign(vertices_.size(), update_number_);
     creases_are_stale_ = true;
     update();
+    return numbers;
   }
 
   /// Exchanges the numbers of two vertices; the creases hear of it at the next `update()`, which is done at once.

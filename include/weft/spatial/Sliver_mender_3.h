@@ -48,13 +48,13 @@ public:
   using Judge = typename Perturber::Judge;
 
   /// \param timer since when time is counted.
-  Sliver_mender_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Perturb_options_3& options,
+  Sliver_mender_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Perturb_options_3& options,
                   Perturb_report_3& report, const internal::Timer& timer)
       : mesh_(mesh),
         options_(options),
         report_(report),
         timer_(timer),
-        perturber_(mesh, criteria, options, report),
+        perturber_(mesh, guard, options, report),
         most_insertions_(static_cast<std::size_t>(options.insertions * static_cast<double>(mesh.vertices().size()))),
         random_(options.seed + 1)
   {}

@@ -11,6 +11,7 @@
 #include <weft/report.h>
 #include <weft/spatial/coarsen_3.h>
 #include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/Criteria_guard_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/perturb_slivers_3.h>
 #include <weft/spatial/refine_3.h>
@@ -23,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -174,7 +176,16 @@ private:
     report_.refined_smallest_dihedral = smallest_dihedral();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     begin_stage("refinement after smoothing", Stage::refinement);
-    return is_good() || refine(1, true); // refinement also prevents: it would mirror vertices at acute edges
+    if (is_good()) return true; // refinement also prevents: it would mirror vertices at acute edges
+    guard_.reset();
+    return refine(1, true);
+  }
+
+  /// Watches all that comes after refinement: one for each stage took a fifth of a run.
+  Criteria_guard_3<Restricted>& guard()
+  {
+    if (!guard_) guard_.emplace(mesh_, criteria_);
+    return *guard_;
   }
 
   bool coarsen()
@@ -184,7 +195,7 @@ private:
     Coarsen_options_3 options;
     options.time_limit = time_left();
     options.go_on = [this] { return goes_on(); };
-    report_.coarsened += coarsen_3(mesh_, criteria_, options).removed;
+    report_.coarsened += coarsen_3(mesh_, guard(), options).removed;
     return may_go_on();
   }
 
@@ -197,7 +208,7 @@ private:
     options.threads = options_.threads;
     options.time_limit = time_left();
     options.go_on = [this] { return goes_on(); };
-    const Smooth_report_3 result = smooth_3(mesh_, criteria_, options);
+    const Smooth_report_3 result = smooth_3(mesh_, guard(), options);
     report_.smoothing_sweeps += result.sweeps;
     report_.smoothing_moves += result.moves;
     report_.smoothing_locked += result.locked;
@@ -243,7 +254,7 @@ private:
     options.seed = options_.seed + 2;
     options.time_limit = time_left();
     options.go_on = [this](double) { return goes_on(); };
-    const Perturb_report_3 result = perturb_slivers_3(mesh_, criteria_, options);
+    const Perturb_report_3 result = perturb_slivers_3(mesh_, guard(), options);
     report_.smoothed_smallest_dihedral = result.before;
     report_.perturbed = result.by_radius + result.by_volume + result.by_chance;
     report_.perturb_insertions = result.insertions;
@@ -302,6 +313,7 @@ private:
   const Criteria_3<Kernel>& criteria_;
   const Mesh_options_3& options_;
   Restricted mesh_;
+  std::optional<Criteria_guard_3<Restricted>> guard_; ///< from when refinement has ended
   Mesh_report_3 report_;
   internal::Timer timer_;
   Stage stage_ = Stage::seeding;

@@ -69,8 +69,8 @@ public:
   using Cell_handle = typename Restricted::Cell_handle;
   using Vertex_handle = typename Restricted::Vertex_handle;
 
-  Mesh_coarsener_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Coarsen_options_3& options)
-      : mesh_(mesh), guard_(mesh, criteria), options_(options), is_promising_(mesh.vertices().size(), true)
+  Mesh_coarsener_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Coarsen_options_3& options)
+      : mesh_(mesh), guard_(guard), options_(options), is_promising_(mesh.vertices().size(), true)
   {}
 
   Coarsen_report_3 run()
@@ -82,7 +82,7 @@ public:
       const auto gain = static_cast<double>(report_.removed - before);
       if (gain < options_.least_gain * static_cast<double>(mesh_.vertices().size())) break;
     }
-    if (report_.removed > 0) mesh_.close_gaps();
+    if (report_.removed > 0) guard_.renumber(mesh_.close_gaps());
     report_.seconds = timer_.seconds();
     return report_;
   }
@@ -177,7 +177,7 @@ private:
   }
 
   Restricted& mesh_;
-  Criteria_guard_3<Restricted> guard_;
+  Criteria_guard_3<Restricted>& guard_;
   const Coarsen_options_3& options_;
   double bound_ = 1;
   bool goes_on_ = true;
@@ -188,6 +188,15 @@ private:
   internal::Timer timer_;
   Coarsen_report_3 report_;
 };
+
+/// The same as below, with a guard that has watched other stages, too: what was bad before those is tolerated.
+template <class Restricted>
+Coarsen_report_3 coarsen_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard,
+                           const Coarsen_options_3& options = Coarsen_options_3())
+{
+  options.check();
+  return Mesh_coarsener_3<Restricted>(mesh, guard, options).run();
+}
 
 /// Takes away vertices inside, on patches and on creases as long as elements that satisfy `criteria` are replaced by
 /// elements that do and facets don't come to lie farther from the surface than the farthest did before.
@@ -201,7 +210,8 @@ Coarsen_report_3 coarsen_3(Restricted& mesh, const Criteria_3<typename Restricte
 {
   criteria.check();
   options.check();
-  return Mesh_coarsener_3<Restricted>(mesh, criteria, options).run();
+  Criteria_guard_3<Restricted> guard(mesh, criteria);
+  return coarsen_3(mesh, guard, options);
 }
 
 } // namespace weft

@@ -14,6 +14,7 @@
 
 #include <weft/internal/timer.h>
 #include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/Criteria_guard_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/Perturb_options_3.h>
 #include <weft/spatial/Sliver_mender_3.h>
@@ -35,8 +36,8 @@ public:
   using Cell_handle = typename Restricted::Cell_handle;
   using Vertex_handle = typename Restricted::Vertex_handle;
 
-  Sliver_perturber_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Perturb_options_3& options)
-      : mesh_(mesh), options_(options), mender_(mesh, criteria, options, report_, timer_)
+  Sliver_perturber_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Perturb_options_3& options)
+      : mesh_(mesh), options_(options), mender_(mesh, guard, options, report_, timer_)
   {}
 
   Perturb_report_3 run()
@@ -214,7 +215,18 @@ private:
 ///
 /// The triangulation stays Delaunay, vertices stay on their patches and creases, the boundary stays a surface, and
 /// elements that satisfied `criteria` are replaced by elements that do. The smallest dihedral angle never falls.
+/// \param guard has watched other stages, too: what was bad before those is tolerated.
 /// \tparam Restricted a Restricted_delaunay_3.
+/// \throws Option_error for options out of range.
+template <class Restricted>
+Perturb_report_3 perturb_slivers_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard,
+                                   const Perturb_options_3& options = Perturb_options_3())
+{
+  options.check();
+  return Sliver_perturber_3<Restricted>(mesh, guard, options).run();
+}
+
+/// The same on its own: what is bad now is tolerated.
 /// \throws Option_error for options or criteria out of range.
 template <class Restricted>
 Perturb_report_3 perturb_slivers_3(Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria,
@@ -222,7 +234,8 @@ Perturb_report_3 perturb_slivers_3(Restricted& mesh, const Criteria_3<typename R
 {
   criteria.check();
   options.check();
-  return Sliver_perturber_3<Restricted>(mesh, criteria, options).run();
+  Criteria_guard_3<Restricted> guard(mesh, criteria);
+  return perturb_slivers_3(mesh, guard, options);
 }
 
 } // namespace weft

@@ -92,19 +92,16 @@ public:
   using Vertex_handle = typename Restricted::Vertex_handle;
   using Sizing = Dynamic_sizing_3<Restricted>;
 
-  Mesh_smoother_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Smooth_options_3& options,
+  /// \param guard of the criteria to keep; null where none are.
+  Mesh_smoother_3(Restricted& mesh, const Criteria_guard_3<Restricted>* guard, const Smooth_options_3& options,
                   const Smoother& smoother)
       : mesh_(mesh),
+        guard_(guard),
         options_(options),
         smoother_(smoother),
         sizing_(options.lipschitz),
         steps_(mesh.vertices().size(), 1)
-  {
-    if (!options.keep_criteria) return; // measuring the whole mesh takes as long as three sweeps
-    internal::Lap_timer lap;
-    guard_.emplace(mesh, criteria);
-    report_.guard_seconds = lap.seconds();
-  }
+  {}
 
   Smooth_report_3 run()
   {
@@ -140,7 +137,7 @@ private:
     for (const int id : ids_) old.push_back(vertex(id)->point());
     report_.relocations += mesh_.relocate(ids_, targets_);
     kept_ = ids_.size();
-    if (options_.keep_criteria) take_back(old);
+    if (guard_) take_back(old);
     if (options_.uniform && undo_if_worse(old)) return relaxation_ > least_relaxation;
     report_.moves += kept_;
     ++report_.sweeps;
@@ -386,7 +383,7 @@ private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   Restricted& mesh_;
-  std::optional<Criteria_guard_3<Restricted>> guard_; ///< where criteria are kept
+  const Criteria_guard_3<Restricted>* guard_; ///< null where criteria aren't kept
   const Smooth_options_3& options_;
   const Smoother& smoother_;
   Sizing sizing_;
@@ -417,7 +414,23 @@ Smooth_report_3 smooth_3(Restricted& mesh, const Criteria_3<typename Restricted:
 {
   criteria.check();
   options.check();
-  return Mesh_smoother_3<Restricted, Smoother>(mesh, criteria, options, smoother).run();
+  std::optional<Criteria_guard_3<Restricted>> guard; // measuring the whole mesh takes as long as a sweep
+  internal::Lap_timer lap;
+  if (options.keep_criteria) guard.emplace(mesh, criteria);
+  const double seconds = lap.seconds();
+  auto report = Mesh_smoother_3<Restricted, Smoother>(mesh, guard ? &*guard : nullptr, options, smoother).run();
+  report.guard_seconds += seconds;
+  return report;
+}
+
+/// The same with a guard that has watched other stages, too. Without `keep_criteria` it isn't asked.
+template <class Restricted, class Smoother = Natural_odt_3>
+Smooth_report_3 smooth_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard,
+                         const Smooth_options_3& options = Smooth_options_3(), const Smoother& smoother = Smoother())
+{
+  options.check();
+  if (options.keep_criteria) guard.tolerate_all(); // else what no move can mend would take them all back
+  return Mesh_smoother_3<Restricted, Smoother>(mesh, options.keep_criteria ? &guard : nullptr, options, smoother).run();
 }
 
 } // namespace weft

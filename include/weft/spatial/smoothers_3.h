@@ -41,20 +41,27 @@ public:
   Smoothing_context_3(const Restricted& mesh, const Sizing& sizing) : mesh_(mesh), sizing_(sizing)
   {
     for (const auto& e : mesh.creases().edges()) {
-      crease_points_[e.source->id()].push_back(e.steiner);
-      crease_points_[e.target->id()].push_back(e.steiner);
+      crease_ends_[e.source->id()].push_back({e.target, e.steiner});
+      crease_ends_[e.target->id()].push_back({e.source, e.steiner});
     }
   }
 
   const Restricted& mesh() const { return mesh_; }
   double size(Vertex_handle v) const { return sizing_(v); }
 
-  /// Where the Voronoi facets around a vertex meet creases, farthest from it each.
-  const std::vector<Point>& crease_points(Vertex_handle v) const
+  /// A crease edge, seen from one of its ends.
+  struct Crease_end
   {
-    static const std::vector<Point> nothing;
-    const auto found = crease_points_.find(v->id());
-    return found == crease_points_.end() ? nothing : found->second;
+    Vertex_handle other;
+    Point crossing; ///< where its Voronoi facet meets the crease, farthest from the ends
+  };
+
+  /// The crease edges at a vertex.
+  const std::vector<Crease_end>& crease_ends(Vertex_handle v) const
+  {
+    static const std::vector<Crease_end> nothing;
+    const auto found = crease_ends_.find(v->id());
+    return found == crease_ends_.end() ? nothing : found->second;
   }
 
   /// Integral of size^-power over a simplex with n vertices, in parts of its measure: exact for integrands of the
@@ -127,7 +134,7 @@ private:
 
   const Restricted& mesh_;
   const Sizing& sizing_;
-  std::unordered_map<int, std::vector<Point>> crease_points_;
+  std::unordered_map<int, std::vector<Crease_end>> crease_ends_;
   std::vector<double> masses_; ///< by cell id; empty: measured when asked for
   std::vector<unsigned char> boundaries_;
 };
@@ -174,13 +181,67 @@ auto pull_of_circumcenters(const Context& context, typename Context::Vertex_hand
 /// Natural ODT (Tournois 2009, sec. 3.2.1.5): minimises the ODT energy on interior vertices, and has the circumsphere
 /// property on boundary vertices, too: a vertex whose neighbours lie on a sphere around it stays, whether its ring is
 /// full or not.
+///
+/// Other than in the thesis, what is projected on a patch or crease is the mean of that position and of the one that
+/// ODT of the patch's facets or of the crease's edges alone wants, which has the property, too, where the ring is flat
+/// or straight. Volumes say little about where a vertex should slide along the boundary, and what the surface lacks in
+/// regularity becomes slivers below it. SHARES_MEASURED
 struct Natural_odt_3
 {
   static constexpr bool moves_boundary = true, minimises_odt = true;
 
+  double patch_share = 0.5, crease_share = 1; ///< of the patch's and of the crease's own ODT; 0: as in the thesis
+
   template <class Context>
   std::optional<typename Context::Point> operator()(const Context& context, typename Context::Vertex_handle v,
                                                     const std::vector<typename Context::Cell_handle>& star) const
+  {
+    const int dimension = v->location().dimension;
+    const double share = dimension == 2 ? patch_share : dimension == 1 ? crease_share : 0;
+    const auto natural = share < 1 ? in_space(context, v, star) : std::nullopt;
+    if (!(share > 0)) return natural;
+    const auto own = dimension == 2 ? on_patch(context, v, star) : on_crease(context, v);
+    if (!own || !natural) return own ? own : natural;
+    return *natural + share * (*own - *natural);
+  }
+
+private:
+  /// ODT of the restricted facets around a vertex, whose circumcenters on the surface are those of their surface
+  /// Delaunay balls.
+  template <class Context>
+  static std::optional<typename Context::Point> on_patch(const Context& context, typename Context::Vertex_handle v,
+                                                         const std::vector<typename Context::Cell_handle>& star)
+  {
+    const auto& p = v->point();
+    internal::Pull_3<typename Context::Vector> pull;
+    for (const auto c : star)
+      for (int i = 0; i < 4; ++i) {
+        const auto* f = context.mesh().facet(c, i);
+        if (c->vertex(i) == v || !f || f->cell != c) continue;
+        const std::array<typename Context::Vertex_handle, 3> facet{c->vertex((i + 1) & 3), c->vertex((i + 2) & 3),
+                                                                   c->vertex((i + 3) & 3)};
+        const double area =
+            std::sqrt(CGAL::to_double(CGAL::squared_area(facet[0]->point(), facet[1]->point(), facet[2]->point())));
+        pull.add(area * context.template mean_power<3>(facet, 2), f->steiner - p);
+      }
+    return pull.position(p);
+  }
+
+  /// The same of the two crease edges at a vertex.
+  template <class Context>
+  static std::optional<typename Context::Point> on_crease(const Context& context, typename Context::Vertex_handle v)
+  {
+    const auto& ends = context.crease_ends(v);
+    if (ends.size() != 2) return std::nullopt;
+    internal::Pull_3<typename Context::Vector> pull;
+    for (const auto& [other, crossing] : ends)
+      pull.add(std::sqrt(context.squared_length(v, other)), crossing - v->point());
+    return pull.position(v->point());
+  }
+
+  template <class Context>
+  static std::optional<typename Context::Point> in_space(const Context& context, typename Context::Vertex_handle v,
+                                                         const std::vector<typename Context::Cell_handle>& star)
   {
     auto pull = internal::pull_of_circumcenters(context, v, star);
     for (const auto c : star) {
@@ -194,7 +255,6 @@ struct Natural_odt_3
     return pull.position(v->point());
   }
 
-private:
   /// Of the facet opposite to vertex i of c, seen from its vertex iv: the inward normal with the facet's area as
   /// length, times the squared lengths of the two spokes. In the metric that is a number, which the size makes a
   /// length.
@@ -250,9 +310,9 @@ private:
   template <class Context>
   static std::optional<typename Context::Point> on_crease(const Context& context, typename Context::Vertex_handle v)
   {
-    const auto& ends = context.crease_points(v);
+    const auto& ends = context.crease_ends(v);
     if (ends.size() != 2) return std::nullopt;
-    return CGAL::midpoint(ends[0], ends[1]);
+    return CGAL::midpoint(ends[0].crossing, ends[1].crossing);
   }
 
   /// Triangles between the vertex and the centers of two facets that share an edge with it.
