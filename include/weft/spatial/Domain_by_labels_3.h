@@ -56,12 +56,13 @@ public:
   /// The subdomain that a point lies in; 0 outside.
   int subdomain(const Point& p) const { return is_in_box(p) ? derived().label(p) : 0; }
 
-  /// Appends the first change of label from p to q; none if their labels are the same. Returns whether they differ.
+  /// Appends one change of label between p and q, the same in either direction; none if their labels are the same.
+  /// Returns whether they differ.
   /// \param at_p,at_q the labels of the ends.
   bool intersect(const Point& p, const Point& q, int at_p, int at_q, std::vector<Surface_hit_3<K>>& hits) const
   {
     if (at_p == at_q) return false;
-    hits.push_back(derived().crossing(p, q, at_p, at_q));
+    hits.push_back(p < q ? derived().crossing(p, q, at_p, at_q) : derived().crossing(q, p, at_q, at_p));
     return true;
   }
   bool intersect(const Point& p, const Point& q, std::vector<Surface_hit_3<K>>& hits) const

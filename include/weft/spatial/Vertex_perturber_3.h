@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -350,7 +351,9 @@ private:
   {
     ++report_.trials;
     if (is_move_) rates_.spend(kind, 1);
-    p = project_on_location(mesh_.oracle(), p, location_);
+    const std::optional<Point> projected = project_on_location(mesh_.oracle(), p, location_);
+    if (!projected) return Judge::no_good;
+    p = *projected;
     if (location_.dimension == 3 && mesh_.oracle().subdomain(p) != location_.index) return Judge::no_good;
     if (!judge_.find_zone(p, near_)) return Judge::no_good;
     const double measure = judge_.judge(limit_);

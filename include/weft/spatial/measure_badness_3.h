@@ -94,7 +94,8 @@ public:
                                            &f.steiner,
                                            f.patch}),
                   bad_demand);
-    if (criteria_->topology && !on_one_patch(v, f.patch)) badness.add(just_bad, bad_topology);
+    const bool is_astray = std::any_of(v, v + 3, [](Vertex_handle w) { return w->location().dimension > 2; });
+    if (is_astray || (criteria_->topology && !on_one_patch(v, f.patch))) badness.add(just_bad, bad_topology);
     if (!mesh_->is_boundary(f)) badness.add(just_bad, bad_disk);
     return badness;
   }

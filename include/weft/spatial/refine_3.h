@@ -449,7 +449,8 @@ private:
     const double step = 0.4 * radius;
     const auto random = [&] { return step * (2 * (random_() / 4294967295.0) - 1); };
     const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
-    return mesh_.oracle().project_on_patch(p + typename Kernel::Vector_3(x, y, z), patch).point;
+    const Surface_hit hit = mesh_.oracle().project_on_patch(p + typename Kernel::Vector_3(x, y, z), patch);
+    return hit.patch == patch ? hit.point : p;
   }
 
   /// For a vertex on a patch without any restricted facet: the surface enters and leaves its Voronoi cell through

@@ -241,10 +241,10 @@ private:
     const double step = relaxation_ * steps_[id], least = options_.move_ratio * sizing_(v);
     if (!(step * length > least)) return std::nullopt;
     const double reach = 0.5 * shortest_edge(v, star);
-    const Point p =
+    const std::optional<Point> p =
         project_on_location(mesh_.oracle(), v->point() + (std::min)(step, reach / length) * move, v->location());
-    if (!(CGAL::to_double(CGAL::squared_distance(p, v->point())) > least * least)) return std::nullopt;
-    if (v->location().dimension == 3 && mesh_.oracle().subdomain(p) != v->location().index) return std::nullopt;
+    if (!p || !(CGAL::to_double(CGAL::squared_distance(*p, v->point())) > least * least)) return std::nullopt;
+    if (v->location().dimension == 3 && mesh_.oracle().subdomain(*p) != v->location().index) return std::nullopt;
     return p;
   }
 
@@ -349,7 +349,7 @@ private:
 
   Point part_of_the_way(const Point& from, const Point& to, double part, const Vertex_location_3& at) const
   {
-    return project_on_location(mesh_.oracle(), from + part * (to - from), at);
+    return project_on_location(mesh_.oracle(), from + part * (to - from), at).value_or(from);
   }
 
   /// Moves that had to be shortened begin shorter in the next sweep.
