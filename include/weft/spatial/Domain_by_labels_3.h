@@ -175,10 +175,11 @@ public:
 protected:
   /// Looks for the boundary along the edges of a grid.
   /// \param parts of the longest side of the bounding box. O(parts^3) labels.
-  /// \param more points of the boundary known otherwise.
-  void find_seeds(int parts, const std::vector<Surface_hit_3<K>>& more = {})
+  void find_seeds(int parts) { seeds_ = internal::interface_seeds_3<K>(derived(), parts); }
+
+  /// Takes points of the boundary that are known otherwise.
+  void add_seeds(const std::vector<Surface_hit_3<K>>& more)
   {
-    seeds_ = internal::interface_seeds_3<K>(derived(), parts);
     for (const auto& hit : more) {
       const auto p = static_cast<std::size_t>(hit.patch);
       if (hit.patch < 0) continue;

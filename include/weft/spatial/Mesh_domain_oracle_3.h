@@ -98,9 +98,12 @@ public:
       : Base(enlarged(domain.bbox())), domain_(&domain)
   {
     take_features();
-    const auto seeds = initial_points();
-    is_precise_ = !seeds.empty() && intersections_are_precise(seeds);
-    Base::find_seeds(seed_grid, seeds);
+    Base::find_seeds(coarse_grid);
+    is_precise_ = intersections_are_precise();
+    Base::find_seeds(seed_grid);
+    if (patches_.size() == 0) Base::find_seeds(fine_grid);
+    // Not before: CGAL's own domains look for initial points until they have found them, in empty ones for ever.
+    if (patches_.size() > 0) Base::add_seeds(initial_points());
     if (patches_.size() == 0)
       throw Domain_error("no point of the boundary was found: the domain is empty or too small", {}, {});
   }
@@ -115,8 +118,8 @@ public:
   Surface_hit_3<Kernel> crossing(const Point& p, const Point& q, int at_p, int at_q) const
   {
     if (is_precise_ && Base::is_in_box(p) && Base::is_in_box(q)) {
-      const auto [point, index, dimension] = domain_->construct_intersection_object()(Segment(p, q));
-      if (dimension > 0) return {point, patches_.number(domain_->surface_patch_index(index))};
+      Surface_hit_3<Kernel> hit{p, -1};
+      if (intersection(p, q, hit)) return hit;
     }
     return Base::crossing(p, q, at_p, at_q);
   }
@@ -125,22 +128,21 @@ public:
   int side(const Point& p) const { return is_precise_ ? 0 : Base::side(p); }
   bool meets(const Point& p, int at_p, const Point& q) const
   {
-    return is_precise_ ? bool(domain_->do_intersect_surface_object()(Segment(p, q))) : Base::meets(p, at_p, q);
+    if (!is_precise_) return Base::meets(p, at_p, q);
+    return p != q && bool(domain_->do_intersect_surface_object()(Segment(p, q)));
   }
   bool first_hit(const Point& p, int at_p, const Point& q, Surface_hit_3<Kernel>& hit) const
   {
     if (!is_precise_) return Base::first_hit(p, at_p, q, hit);
-    const auto [point, index, dimension] = domain_->construct_intersection_object()(Segment(p, q));
-    if (dimension > 0) hit = {point, patches_.number(domain_->surface_patch_index(index))};
-    return dimension > 0;
+    return intersection(p, q, hit);
   }
 
   /// The patch that the domain sees between two points; where it sees none, the one seen last between such subdomains.
   int patch(int from, int to, const Point& a, const Point& b) const
   {
     const auto key = std::minmax(from, to);
-    const auto [point, index, dimension] = domain_->construct_intersection_object()(Segment(a, b));
-    if (dimension > 0) return last_patch_[key] = patches_.number(domain_->surface_patch_index(index));
+    Surface_hit_3<Kernel> hit{a, -1};
+    if (intersection(a, b, hit)) return last_patch_[key] = hit.patch;
     const auto last = last_patch_.find(key);
     if (last != last_patch_.end()) return last->second;
     return patches_.number(typename Domain::Surface_patch_index());
@@ -214,25 +216,40 @@ private:
     return hits;
   }
 
-  /// Whether labels change at the points that the domain gives for segments between points of its boundary.
-  bool intersections_are_precise(const std::vector<Surface_hit_3<Kernel>>& seeds) const
+  /// Whether labels change at the points that the domain gives for segments that end behind points of its boundary.
+  bool intersections_are_precise() const
   {
     const CGAL::Bbox_3 b = Base::bbox();
     const Point outside(b.xmin(), b.ymin(), b.zmin());
-    for (const auto& seed : seeds) {
-      const Point beyond = Base::between(outside, seed.point, 1.01);
-      const auto [point, index, dimension] = domain_->construct_intersection_object()(Segment(outside, beyond));
-      if (dimension == 0) continue;
-      const double step = 1e-7 * Base::diagonal() / Base::distance(outside, beyond);
-      const auto at = [&](double shift) {
-        return Point(point.x() + shift * (beyond.x() - outside.x()), point.y() + shift * (beyond.y() - outside.y()),
-                     point.z() + shift * (beyond.z() - outside.z()));
-      };
-      if (Base::subdomain(at(-step)) == Base::subdomain(at(step))) return false;
-    }
+    bool known = false;
+    for (int patch = 0; patch < patches_.size(); ++patch)
+      for (const auto& seed : Base::patch_seeds(patch, 20)) {
+        const Point beyond = Base::between(outside, seed.point, 1.01);
+        Surface_hit_3<Kernel> hit{beyond, -1};
+        if (!intersection(outside, beyond, hit)) continue;
+        const double step = 1e-7 * Base::diagonal() / Base::distance(outside, beyond);
+        const auto at = [&](double shift) {
+          return Point(hit.point.x() + shift * (beyond.x() - outside.x()),
+                       hit.point.y() + shift * (beyond.y() - outside.y()),
+                       hit.point.z() + shift * (beyond.z() - outside.z()));
+        };
+        if (Base::subdomain(at(-step)) == Base::subdomain(at(step))) return false;
+        known = true;
+      }
+    return known;
+  }
+
+  /// Where the domain says that a segment meets its surface; whether it says so.
+  bool intersection(const Point& p, const Point& q, Surface_hit_3<Kernel>& hit) const
+  {
+    if (p == q) return false; // CGAL's domains want none of those
+    const auto [point, index, dimension] = domain_->construct_intersection_object()(Segment(p, q));
+    if (dimension == 0) return false;
+    hit = {point, patches_.number(domain_->surface_patch_index(index))};
     return true;
   }
 
+  static constexpr int coarse_grid = 8, fine_grid = 100;
   static constexpr int number_of_initial_points = 20; ///< what CGAL asks for
 
   const Domain* domain_;

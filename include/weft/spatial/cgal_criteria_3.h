@@ -80,7 +80,7 @@ public:
       const Point a(center.x() + d, center.y() + d, center.z() + d), b(center.x() + d, center.y() - d, center.z() - d),
           c(center.x() - d, center.y() + d, center.z() - d), e(center.x() - d, center.y() - d, center.z() + d);
       return !(
-          (*this)(Cell_view_3<Kernel>{{{&a, &b, &c, &e}}, {{inside, inside, inside, inside}}, &center, subdomain}) > 1);
+          (*this)(Cell_view_3<Kernel>{{{&a, &c, &b, &e}}, {{inside, inside, inside, inside}}, &center, subdomain}) > 1);
     };
     double low = 0;
     for (double high = largest; high - low > 1e-6 * high;) {

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// CGAL's own mesh domains and criteria: implicit, image, polyhedral with features, polyhedral complex.
+
+#include <weft/make_c3t3.h>
+
+#include <CGAL/boost/graph/copy_face_graph.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Image_3.h>
+#include <CGAL/Labeled_mesh_domain_3.h>
+#include <CGAL/make_mesh_3.h>
+#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+#include <CGAL/Mesh_criteria_3.h>
+#include <CGAL/Mesh_polyhedron_3.h>
+#include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Polyhedral_complex_mesh_domain_3.h>
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace parameters = CGAL::parameters;
+using K = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = K::Point_3;
+
+// One type for implicit functions and images.
+using Labeled_domain = CGAL::Labeled_mesh_domain_3<K>;
+using Labeled_tr = CGAL::Mesh_triangulation_3<Labeled_domain>::type;
+using Labeled_c3t3 = CGAL::Mesh_complex_3_in_triangulation_3<Labeled_tr>;
+using Labeled_criteria = CGAL::Mesh_criteria_3<Labeled_tr>;
+
+// A polyhedral complex has features.
+using Polyhedron = CGAL::Mesh_polyhedron_3<K>::type;
+using Complex_domain = CGAL::Polyhedral_complex_mesh_domain_3<K>;
+using Complex_tr = CGAL::Mesh_triangulation_3<Complex_domain>::type;
+using Complex_c3t3 =
+    CGAL::Mesh_complex_3_in_triangulation_3<Complex_tr, Complex_domain::Corner_index, Complex_domain::Curve_index>;
+using Complex_criteria = CGAL::Mesh_criteria_3<Complex_tr>;
+
+template <class C3t3>
+std::map<int, double> volumes(const C3t3& c3t3)
+{
+  std::map<int, double> sums;
+  for (auto c = c3t3.cells_in_complex_begin(); c != c3t3.cells_in_complex_end(); ++c)
+    sums[static_cast<int>(c3t3.subdomain_index(c))] += c3t3.triangulation().tetrahedron(c).volume();
+  return sums;
+}
+
+/// Elements that CGAL's criteria call bad, but for those between features, whose angles are the input's.
+template <class C3t3, class Criteria>
+std::size_t count_bad(const C3t3& c3t3, const Criteria& criteria)
+{
+  std::size_t bad = 0;
+  const auto& tr = c3t3.triangulation();
+  for (auto f = c3t3.facets_in_complex_begin(); f != c3t3.facets_in_complex_end(); ++f) {
+    int on_features = 0;
+    for (int i = 1; i < 4; ++i) on_features += c3t3.in_dimension(f->first->vertex((f->second + i) & 3)) < 2;
+    bad += on_features < 3 && criteria.facet_criteria_object()(tr, *f);
+  }
+  for (auto c = c3t3.cells_in_complex_begin(); c != c3t3.cells_in_complex_end(); ++c) {
+    int on_features = 0;
+    for (int i = 0; i < 4; ++i) on_features += c3t3.in_dimension(c->vertex(i)) < 2;
+    bad += on_features < 3 && criteria.cell_criteria_object()(tr, c);
+  }
+  return bad;
+}
+
+double sphere(const Point& p)
+{
+  return CGAL::squared_distance(p, Point(0, 0, 0)) - 1;
+}
+
+/// Part of the boundary of the box [x0, x1] x [0, 1] x [0, 1]: the sides of which `takes` says so, in the order x0, x1,
+/// y0, y1, z0, z1.
+Polyhedron box(double x0, double x1, const std::string& takes)
+{
+  static const char* const sides[] = {"3 0 4 6\n3 0 6 2\n", "3 1 3 7\n3 1 7 5\n", "3 0 1 5\n3 0 5 4\n",
+                                      "3 2 6 7\n3 2 7 3\n", "3 0 2 3\n3 0 3 1\n", "3 4 5 7\n3 4 7 6\n"};
+  std::vector<std::string> facets;
+  for (std::size_t i = 0; i < 6; ++i)
+    if (takes[i] == '1') facets.push_back(sides[i]);
+  std::ostringstream off;
+  off << "OFF\n8 " << 2 * facets.size() << " 0\n";
+  for (const int z : {0, 1})
+    for (const int y : {0, 1})
+      for (const double x : {x0, x1}) off << x << " " << y << " " << z << "\n";
+  for (const std::string& facet : facets) off << facet;
+  std::istringstream in(off.str());
+  Polyhedron polyhedron;
+  in >> polyhedron;
+  return polyhedron;
+}
+
+} // namespace
+
+TEST_CASE("CGAL's implicit domain is meshed to CGAL's criteria")
+{
+  const Labeled_domain domain = Labeled_domain::create_implicit_mesh_domain(sphere, K::Sphere_3(Point(0, 0, 0), 2.));
+  const Labeled_criteria criteria(parameters::facet_angle = 30, parameters::facet_size = 0.25,
+                                  parameters::facet_distance = 0.02, parameters::cell_radius_edge_ratio = 2,
+                                  parameters::cell_size = 0.25);
+  weft::Mesh_report_3 report;
+  const auto c3t3 = weft::make_mesh_3<Labeled_c3t3>(domain, criteria, weft::Mesh_options_3(), &report);
+  CHECK(report.ok());
+  CHECK(report.smallest_dihedral >= 20);
+  CHECK(count_bad(c3t3, criteria) == 0);
+  CHECK(c3t3.is_valid());
+  CHECK(c3t3.triangulation().is_valid());
+  CHECK(c3t3.number_of_cells_in_complex() == report.cells);
+  CHECK(volumes(c3t3)[1] == Approx(4 * std::acos(-1.) / 3).epsilon(0.03));
+  for (auto f = c3t3.facets_in_complex_begin(); f != c3t3.facets_in_complex_end(); ++f)
+    CHECK(std::abs(sphere(f->first->get_facet_surface_center(f->second))) < 1e-3);
+}
+
+TEST_CASE("sizing fields and criteria of any kind are asked where elements are")
+{
+  const Labeled_domain domain = Labeled_domain::create_implicit_mesh_domain(sphere, K::Sphere_3(Point(0, 0, 0), 2.));
+  struct Field
+  {
+    using FT = K::FT;
+    using Point_3 = Point;
+    using Index = Labeled_domain::Index;
+    FT operator()(const Point_3& p, int, const Index&) const { return 0.08 + 0.3 * std::abs(p.x()); }
+  };
+  const Labeled_criteria criteria(parameters::facet_angle = 25, parameters::facet_size = Field(),
+                                  parameters::facet_distance = 0.05, parameters::cell_radius_edge_ratio = 2.5,
+                                  parameters::cell_size = Field());
+  const auto c3t3 = weft::make_mesh_3<Labeled_c3t3>(domain, criteria, weft::Mesh_options_3::refinement());
+  CHECK(count_bad(c3t3, criteria) == 0);
+  CHECK(c3t3.number_of_cells_in_complex() > 1000);
+}
+
+TEST_CASE("CGAL's image domain is meshed with its labels")
+{
+  constexpr std::size_t n = 24;
+  _image* raw = _createImage(n, n, n, 1, 0.1, 0.1, 0.1, 1, WK_FIXED, SGN_UNSIGNED);
+  auto* voxels = static_cast<unsigned char*>(raw->data);
+  for (std::size_t z = 0; z < n; ++z)
+    for (std::size_t y = 0; y < n; ++y)
+      for (std::size_t x = 0; x < n; ++x) {
+        const double r = std::hypot(x - 11.5, y - 11.5, z - 11.5);
+        voxels[(z * n + y) * n + x] = r > 9 ? 0 : x < 12 ? 4 : 7;
+      }
+  const CGAL::Image_3 image(raw);
+  const Labeled_domain domain = Labeled_domain::create_labeled_image_mesh_domain(image);
+  const Labeled_criteria criteria(parameters::facet_angle = 30, parameters::facet_size = 0.4,
+                                  parameters::facet_distance = 0.08, parameters::cell_radius_edge_ratio = 3,
+                                  parameters::cell_size = 0.4);
+  weft::Mesh_report_3 report;
+  const auto c3t3 = weft::make_mesh_3<Labeled_c3t3>(domain, criteria, weft::Mesh_options_3(), &report);
+  CHECK(report.ok());
+  CHECK(count_bad(c3t3, criteria) == 0);
+  auto volume = volumes(c3t3);
+  REQUIRE(volume.size() == 2);
+  CHECK(volume[4] == Approx(volume[7]).epsilon(0.1));
+  std::set<std::pair<int, int>> patches;
+  for (auto f = c3t3.facets_in_complex_begin(); f != c3t3.facets_in_complex_end(); ++f) {
+    const auto index = c3t3.surface_patch_index(*f);
+    patches.emplace(index.first, index.second);
+  }
+  CHECK(patches == std::set<std::pair<int, int>>{{0, 4}, {0, 7}, {4, 7}});
+}
+
+TEST_CASE("a polyhedral complex keeps its features, its subdomains and CGAL's indices")
+{
+  const std::vector<Polyhedron> parts = {box(0, 1, "101111"), box(1, 2, "011111"), box(0, 1, "010000")};
+  const std::vector<std::pair<int, int>> sides = {{1, 0}, {2, 0}, {1, 2}};
+  Complex_domain domain(parts.begin(), parts.end(), sides.begin(), sides.end());
+  domain.detect_features();
+  const Complex_criteria criteria(parameters::edge_size = 0.2, parameters::facet_angle = 25,
+                                  parameters::facet_size = 0.2, parameters::facet_distance = 0.01,
+                                  parameters::cell_radius_edge_ratio = 3, parameters::cell_size = 0.2);
+  weft::Mesh_report_3 report;
+  const auto c3t3 = weft::make_mesh_3<Complex_c3t3>(domain, criteria, weft::Mesh_options_3(), &report);
+  INFO(report);
+  CHECK(report.ok());
+  CHECK(report.corner_vertices == 12);
+  CHECK(count_bad(c3t3, criteria) == 0);
+  auto volume = volumes(c3t3);
+  CHECK(volume[1] == Approx(1).epsilon(1e-6));
+  CHECK(volume[2] == Approx(1).epsilon(1e-6));
+  std::size_t corners = 0;
+  for (auto v = c3t3.vertices_in_complex_begin(); v != c3t3.vertices_in_complex_end(); ++v) ++corners;
+  CHECK(corners == 12);
+  std::set<Complex_domain::Curve_index> curves;
+  for (auto e = c3t3.edges_in_complex_begin(); e != c3t3.edges_in_complex_end(); ++e) {
+    curves.insert(c3t3.curve_index(*e));
+    CHECK(c3t3.triangulation().segment(*e).squared_length() <= 0.04 * (1 + 1e-9));
+  }
+  CHECK(curves.size() == 20);
+}
+
+TEST_CASE("an empty CGAL domain is refused")
+{
+  const Labeled_domain domain =
+      Labeled_domain::create_implicit_mesh_domain([](const Point&) { return 1.; }, K::Sphere_3(Point(0, 0, 0), 2.));
+  const Labeled_criteria criteria(parameters::cell_size = 0.25);
+  CHECK_THROWS_AS(weft::make_mesh_3<Labeled_c3t3>(domain, criteria), weft::Domain_error);
+}
