@@ -264,6 +264,19 @@ TEST_CASE("a segment source is the infimum over its points")
   }
 }
 
+TEST_CASE("below a limit a Lipschitz field is the smaller of the two")
+{
+  const std::vector<Point> points = random_points(200, 5, 0, 1);
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < points.size(); ++i) sizes.push_back(0.01 + 0.001 * static_cast<double>(i));
+  const Lipschitz field(points, sizes, 0.7, 0.02, 0.15);
+  for (const Point& x : random_points(500, 6))
+    for (const double limit : {0.005, 0.02, 0.04, 0.06, 0.1, 0.15, 0.3, infinity}) {
+      CHECK(field.below(x, limit) == Approx(std::min(limit, field(x))).epsilon(1e-14));
+      CHECK(field.below(x, limit) <= limit);
+    }
+}
+
 TEST_CASE("the lfs field is below the infimum over the graph and within its tolerance")
 {
   for (const auto& [name, pslg] : nasty_graphs()) {

@@ -182,7 +182,7 @@ public:
   double target(const Point& p) const
   {
     const double s = size(p);
-    return grading_ ? (std::min)(s, CGAL::to_double((*grading_)(p))) : s;
+    return grading_ ? CGAL::to_double(grading_->below(p, s)) : s;
   }
 
   /// Target remembered for a vertex.

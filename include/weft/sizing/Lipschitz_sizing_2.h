@@ -81,6 +81,16 @@ public:
     return FT(value(x, [](const internal::Box_2&) {}));
   }
 
+  /// The smaller of the field at `x` and `limit`, up to rounding. Far faster where the limit is the smaller one: then
+  /// hardly any source is looked at.
+  FT below(const Point& x, const FT& limit) const
+  {
+    const double l = CGAL::to_double(limit);
+    const double size = value(
+        x, [](const internal::Box_2&) {}, l);
+    return size < l ? FT(size) : limit;
+  }
+
   double k() const { return k_; }
   double min_size() const { return min_size_; }
   double max_size() const { return max_size_; }
@@ -191,10 +201,10 @@ private:
   }
 
   template <class Count>
-  double value(const Point& q, const Count& count) const
+  double value(const Point& q, const Count& count, double limit = std::numeric_limits<double>::infinity()) const
   {
     const double x = scale_ * CGAL::to_double(q.x()), y = scale_ * CGAL::to_double(q.y());
-    return std::max(min_size_, infimum(x, y, scale_ * max_size_, count) / scale_);
+    return std::max(min_size_, infimum(x, y, scale_ * std::min(max_size_, limit), count) / scale_);
   }
 
   double k_, min_size_, max_size_;
