@@ -8,6 +8,7 @@
 #define WEFT_PLANAR_PLANAR_MESHER_2_H
 
 #include <weft/options.h>
+#include <weft/planar/basin_hopping_2.h>
 #include <weft/planar/input_grading_2.h>
 #include <weft/planar/least_vertices_2.h>
 #include <weft/planar/Mesh_run_2.h>
@@ -50,7 +51,8 @@ public:
         refiner_(mesh_, options.min_angle),
         relaxer_(mesh_, options.size_feedback, options.threads),
         polisher_(mesh_),
-        pliant_(mesh_, polisher_)
+        pliant_(mesh_, polisher_),
+        hopper_(mesh_, polisher_, options.seed)
   {
     report_.input_vertices = mesh_.input_vertices();
   }
@@ -170,8 +172,10 @@ private:
       if (is_stopped()) break;
       bad_ = refiner_.find_bad();
       if (bad_ > 0 || begin_mending()) continue;
+      if (options_.polish) timed(Stage::polishing, [this] { hop(); });
       refiner_.set_min_angle(options_.min_angle);
-      return;
+      bad_ = refiner_.find_bad();
+      if (bad_ == 0) return; // a ratio of 1 is judged by its square there: rounding may tell them apart
     }
     stop_mending();
     if (bad_ > 0) stop(Stop_reason::iteration_limit);
@@ -288,6 +292,13 @@ private:
     }
   }
 
+  /// Random changes near the very worst triangles.
+  void hop()
+  {
+    const std::size_t n = mesh_.vertices().size();
+    hopper_.run(pliant_cost, options_.max_vertices - (std::min)(n, options_.max_vertices), [this] { return go_on(); });
+  }
+
   Mesh_report_2 finish()
   {
     for (const Vertex_handle v : mesh_.vertices())
@@ -315,6 +326,7 @@ private:
   Relaxer_2<Mesh> relaxer_;
   Polisher_2<Mesh> polisher_;
   Pliant_improver_2<Mesh> pliant_;
+  Basin_hopper_2<Mesh> hopper_;
   Mesh_report_2 report_;
   std::size_t bad_ = 0;
   std::size_t most_mended_vertices_ = 0;

@@ -9,6 +9,7 @@
 #define WEFT_PLANAR_PLIANT_2_H
 
 #include <weft/planar/Failure_memory.h>
+#include <weft/planar/Neighborhood_2.h>
 #include <weft/planar/polish_2.h>
 #include <weft/planar/Triangulation_2.h>
 
@@ -56,6 +57,7 @@ public:
     std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     failures_.reserve(mesh_.vertices().size());
     is_patient_ = worst.size() <= 20 + mesh_.faces().size() / 500;
+    price_ = worst.size() > mesh_.faces().size() / 20 ? price_among_many : 1;
     std::size_t kept = 0;
     for (const auto& [c, t] : worst) {
       if (trials_left_ == 0 || !go_on()) break;
@@ -75,15 +77,13 @@ private:
   // of five removals at once; of those kept in the end one in eight had cost more.
   static constexpr double hopeless_removal = 1e4;
 
+  // What a trial takes from the budget where more than a twentieth of all triangles is bad: details of the input force
+  // most of those.
+  static constexpr std::size_t price_among_many = 3;
+
   using Triangle = std::array<int, 3>; // by vertex ids, since trials replace vertices and faces
 
-  /// What a change may affect: the vertices of a triangle and their neighbors, with the places they had.
-  struct Region
-  {
-    std::vector<Vertex_handle> vertices;
-    std::vector<Point> points;
-    double cost = 0;
-  };
+  using Region = internal::Neighborhood_2<Mesh>; // what a change may affect
 
   /// The face of a triangle, if it still is one.
   bool find(const Triangle& t, Face_handle& f) const
@@ -120,8 +120,9 @@ private:
 
   std::uint64_t key_of_surroundings(Face_handle f)
   {
+    const Region region(mesh_, f, 1);
     std::uint64_t key = 0;
-    for (const Vertex_handle v : vertices_around(f)) key += internal::scrambled(polisher_.key_of_star(v));
+    for (const Vertex_handle v : region.vertices()) key += internal::scrambled(polisher_.key_of_star(v));
     for (int i = 0; i < 3; ++i) key += polisher_.key_of_star(f->vertex(i)); // which face it is
     return key;
   }
@@ -142,52 +143,52 @@ private:
 
   bool try_insertion(Face_handle f, int k)
   {
-    Region region = region_around(f);
+    Region region(mesh_, f, 1);
+    const double old_cost = cost(region.vertices());
     const Vertex_handle v = insert(f, k);
     if (v == Vertex_handle()) return false;
     mesh_.adopt(v, static_cast<int>(mesh_.vertices().size()));
-    region.vertices.push_back(v);
-    if (settle(region.vertices, region.cost, worth_inserting)) return true;
-    region.vertices.pop_back();
+    region.add(v);
+    if (settle(region.vertices(), old_cost, worth_inserting)) return true;
+    region.forget(v);
     if (v->constraint() < 0)
       mesh_.remove(v);
     else if (!mesh_.remove_from_constraint(v))
       return true;
-    put_back(region);
+    region.put_back();
     return false;
   }
 
   bool try_removal(Face_handle f, int id)
   {
-    Region region = region_around(f);
+    Region region(mesh_, f, 1);
+    const double old_cost = cost(region.vertices());
     const Vertex_handle v = mesh_.vertices()[id];
-    const auto at = std::find(region.vertices.begin(), region.vertices.end(), v) - region.vertices.begin();
-    region.vertices.erase(region.vertices.begin() + at);
-    region.points.erase(region.points.begin() + at);
-    const Point p = v->point();
+    const Point p = region.forget(v);
     const int constraint = v->constraint();
     const auto [a, b] = constraint >= 0 ? mesh_.neighbors_on_constraint(v) : std::array<Vertex_handle, 2>();
     if (constraint < 0)
       mesh_.remove(v);
     else if (a == Vertex_handle() || is_too_long(a, b) || !mesh_.remove_from_constraint(v))
       return false;
-    if (is_hopeful_removal(region) && settle(region.vertices, region.cost, worth_removing)) return true;
-    put_back(region);
+    const std::vector<Vertex_handle>& vertices = region.vertices();
+    if (is_hopeful_removal(vertices, old_cost) && settle(vertices, old_cost, worth_removing)) return true;
+    region.put_back();
     const Vertex_handle again =
-        constraint < 0 ? mesh_.insert_inside(p, region.vertices.front()->face()) : insert_between(a, b, p);
+        constraint < 0 ? mesh_.insert_inside(p, vertices.front()->face()) : insert_between(a, b, p);
     if (again == Vertex_handle()) return true;
     mesh_.adopt(again, id);
     return false;
   }
 
-  bool is_hopeful_removal(const Region& region)
+  bool is_hopeful_removal(const std::vector<Vertex_handle>& vertices, double old_cost)
   {
-    if (is_patient_ || cost(region.vertices) < hopeless_removal * region.cost) return true;
-    if (trials_left_ > 0) --trials_left_;
+    if (is_patient_ || cost(vertices) < hopeless_removal * old_cost) return true;
+    pay();
     return false;
   }
 
-  bool remove(Vertex_handle v) { return v->constraint() < 0 ? mesh_.remove(v) : mesh_.remove_from_constraint(v); }
+  void pay() { trials_left_ -= (std::min)(trials_left_, price_); }
 
   bool is_too_long(Vertex_handle a, Vertex_handle b) const
   {
@@ -202,32 +203,6 @@ private:
     return mesh_.triangulation().is_edge(a, b, f, i) ? mesh_.insert_on_constraint(p, f, i) : Vertex_handle();
   }
 
-  /// The vertices of a face and their neighbors.
-  std::vector<Vertex_handle> vertices_around(Face_handle f) const
-  {
-    std::vector<Vertex_handle> result;
-    const auto append = [&](Vertex_handle v) {
-      if (!mesh_.is_frame(v) && std::find(result.begin(), result.end(), v) == result.end()) result.push_back(v);
-    };
-    for (int i = 0; i < 3; ++i) {
-      append(f->vertex(i));
-      auto neighbor = mesh_.triangulation().incident_vertices(f->vertex(i));
-      const auto done = neighbor;
-      do append(neighbor);
-      while (++neighbor != done);
-    }
-    return result;
-  }
-
-  Region region_around(Face_handle f)
-  {
-    Region region;
-    region.vertices = vertices_around(f);
-    for (const Vertex_handle v : region.vertices) region.points.push_back(v->point());
-    region.cost = cost(region.vertices);
-    return region;
-  }
-
   /// Polishes the vertices. Returns whether the cost of the triangles around them falls below a part of what it was;
   /// gives up when that is unlikely: where the first round leaves 12 times the cost, or where one more gain like the
   /// last one would not do. That saves two thirds of the rounds and loses 3 to 5 % of the changes that would have been
@@ -235,7 +210,7 @@ private:
   /// smallest angle of 34.0 degrees, not 29.7.
   bool settle(const std::vector<Vertex_handle>& vertices, double old_cost, double worth)
   {
-    if (trials_left_ > 0) --trials_left_;
+    pay();
     const int most_rounds = is_patient_ ? 24 : 8;
     const double hopeless = is_patient_ ? 1000 : 12;
     for (const Vertex_handle v : vertices) polisher_.give_hope(v);
@@ -253,41 +228,13 @@ private:
 
   double cost(const std::vector<Vertex_handle>& vertices) const
   {
-    const auto for_faces = [&](const auto& function) {
-      for (const Vertex_handle v : vertices) {
-        auto face = mesh_.triangulation().incident_faces(v);
-        const auto done = face;
-        do function(Face_handle(face));
-        while (++face != done);
-      }
-    };
-    double sum = 0;
-    for_faces([](Face_handle f) { f->set_id(0); });
-    for_faces([&](Face_handle f) {
-      if (f->id() == 0 && f->is_in_domain()) sum += polisher_.cost(f);
-      f->set_id(1); // counted
-    });
-    return sum;
-  }
-
-  /// Puts a region back as it was. Where rounding or flips forbid that, the mesh stays valid all the same.
-  void put_back(const Region& region)
-  {
-    std::vector<Vertex_handle> moved;
-    std::vector<Point> points;
-    for (std::size_t i = 0; i < region.vertices.size(); ++i)
-      if (region.vertices[i]->point() != region.points[i]) {
-        moved.push_back(region.vertices[i]);
-        points.push_back(region.points[i]);
-      }
-    mesh_.relocator().move(moved, points);
-    for (const Vertex_handle v : moved) mesh_.update_target(v);
+    return internal::cost_around(mesh_, polisher_, vertices);
   }
 
   Mesh& mesh_;
   Polisher_2<Mesh>& polisher_;
   bool is_patient_ = false; // few triangles are bad: each may take longer
-  std::size_t insertions_left_ = 0, trials_left_ = 0;
+  std::size_t insertions_left_ = 0, trials_left_ = 0, price_ = 1;
   internal::Failure_memory failures_; // surroundings of triangles that no change mended
 };
 
