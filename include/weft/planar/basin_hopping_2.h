@@ -108,7 +108,7 @@ private:
   void set_budget(std::size_t bad)
   {
     const std::size_t n = mesh_.vertices().size();
-    trials_left_ = bad <= 40 + mesh_.faces().size() / 50 ? 200 + n / 50 : 50 + n / 200;
+    trials_left_ = bad <= 20 + mesh_.faces().size() / 500 ? 100 + n / 50 : 50 + n / 200;
   }
 
   struct Removed
