@@ -299,6 +299,84 @@ TEST_CASE("the seed is the only source of randomness, and any seed gives a good 
 
 namespace {
 
+/// A mesh with bad angles: all sizes hold, but nothing has been polished.
+Cdt unpolished_mesh(const Pslg& pslg, double size)
+{
+  Cdt cdt = triangulate(pslg);
+  Mesh_options_2 options;
+  options.polish = false;
+  options.seeding = weft::Seeding::none;
+  CHECK(weft::make_mesh_2(cdt, Uniform(size), options).ok());
+  return cdt;
+}
+
+/// Hops until the budget is used up. Returns the number of changes that were kept.
+std::size_t hop(Cdt& cdt, double size, std::size_t insertions, unsigned seed = 0)
+{
+  using Mesh = weft::Working_mesh_2<Cdt, Uniform>;
+  const Uniform sizing(size);
+  Mesh mesh(cdt, sizing, Mesh::Given::relaxable);
+  weft::Polisher_2<Mesh> polisher(mesh);
+  weft::Basin_hopper_2<Mesh> hopper(mesh, polisher, seed);
+  return hopper.run(1, insertions, [] { return true; });
+}
+
+} // namespace
+
+TEST_CASE("random changes of neighborhoods keep the worst angles, every size and all that is given")
+{
+  std::size_t kept = 0;
+  int better = 0;
+  for (const Domain& domain : domains())
+    for (const unsigned seed : {0u, 5u}) {
+      INFO(domain.name << ", seed " << seed);
+      Cdt cdt = unpolished_mesh(domain.pslg, 0.06);
+      const weft::Quality_2 before = weft::measure_quality_2(cdt);
+      const std::size_t changes = hop(cdt, 0.06, 1000, seed);
+      kept += changes;
+      const weft::Quality_2 after = weft::measure_quality_2(cdt);
+      CHECK(faults(weft::validate_2(cdt)) == "");
+      // Isolated points look like any other vertex inside.
+      if (domain.name != "isolated points") CHECK(faults(weft::check_conformity_2(cdt, domain.pslg)) == "");
+      CHECK(faults(weft::check_sizing_2(cdt, Uniform(0.06))) == "");
+      CHECK(after.area == Approx(before.area));
+      CHECK(after.smallest_angle.degrees >= before.smallest_angle.degrees - 1e-6);
+      CHECK(after.largest_angle.degrees <= before.largest_angle.degrees + 1e-6);
+      better += after.smallest_angle.degrees > before.smallest_angle.degrees + 0.5;
+    }
+  CHECK(kept > 100);
+  CHECK(better > 5);
+}
+
+TEST_CASE("without room for insertions random changes add no vertex")
+{
+  for (const Domain& domain : domains()) {
+    INFO(domain.name);
+    Cdt cdt = unpolished_mesh(domain.pslg, 0.06);
+    const std::size_t vertices = cdt.number_of_vertices();
+    hop(cdt, 0.06, 0);
+    CHECK(cdt.number_of_vertices() <= vertices);
+  }
+}
+
+TEST_CASE("random changes are the same bits for the same seed wherever the triangulation lies in memory")
+{
+  const Cdt mesh = unpolished_mesh(annulus(), 0.06);
+  const auto run = [&](unsigned seed) {
+    Cdt cdt(mesh);
+    CHECK(hop(cdt, 0.06, 1000, seed) > 0);
+    return fingerprint(cdt);
+  };
+  const Fingerprint first = run(1);
+  {
+    const Memory_noise noise(1);
+    CHECK(first == run(1));
+  }
+  CHECK(!(first == run(2)));
+}
+
+namespace {
+
 /// Sharp input angles and points within a fraction of the size: the worst angle is where luck decides.
 bool is_delicate(const Domain& domain)
 {
