@@ -303,8 +303,12 @@ public:
   /// restore the triangulation; where those get stuck, or too many vertices would have to be moved one by one, it is
   /// built anew. Vertex handles don't survive, ids do. If a target coincides with another vertex, its vertex may stay
   /// where it was.
+  /// \param stayed if given, the few vertices that would have to be moved one by one stay, and this gets their places
+  /// in
+  ///   `ids`.
   /// \pre targets lie inside the box; those of vertices on patches and creases lie on them.
-  Relocation_counts_3 relocate(const std::vector<int>& ids, const std::vector<Point>& targets)
+  Relocation_counts_3 relocate(const std::vector<int>& ids, const std::vector<Point>& targets,
+                               std::vector<std::size_t>* stayed = nullptr)
   {
     std::vector<Vertex_handle> moving;
     for (const int id : ids) moving.push_back(vertices_[static_cast<std::size_t>(id)]);
@@ -320,6 +324,11 @@ public:
     counts.flipping_seconds = lap.seconds();
     if (alone && counts.stuck == 0) {
       counts.in_place = ids.size() - deferred.size();
+      if (stayed) {
+        counts.put_back = deferred.size();
+        stayed->swap(deferred);
+        deferred.clear();
+      }
       for (const std::size_t i : deferred) ++(move_alone(ids[i], targets[i]) ? counts.one_by_one : counts.put_back);
     } else {
       ++counts.rebuilds;

@@ -38,7 +38,7 @@ namespace weft {
 struct Smooth_options_3
 {
   int max_sweeps = 20;
-  double move_ratio = 0.01; ///< ends when no vertex moves farther, in parts of its size
+  double move_ratio = 0.02; ///< vertices that would move less stay, in parts of their size; ends when all do
   double lipschitz = 1;     ///< of the dynamic sizing field: by how much sizes grow per distance
   double locked_smallest = smallest_excellent_dihedral,
          locked_largest =
@@ -71,7 +71,7 @@ struct Smooth_report_3
   std::size_t undone_sweeps = 0; ///< that would have raised the energy
   std::size_t moves = 0;         ///< of vertices, in sweeps that were kept
   std::size_t locked = 0;        ///< vertices that stayed since all their cells are excellent, summed over sweeps
-  std::size_t rejected = 0;      ///< moves shortened or taken back since a criterion would have been violated
+  std::size_t rejected = 0;      ///< moves shortened or taken back, mostly since a criterion would have been violated
   double energy_before = 0, energy_after = 0; ///< ODT energy; only with `uniform`: other metrics change with the mesh
   Relocation_counts_3 relocations;            ///< with the times that they took, those of moves taken back included
   // Wall time:
@@ -135,9 +135,13 @@ private:
     if (ids_.empty()) return false;
     std::vector<Point> old;
     for (const int id : ids_) old.push_back(vertex(id)->point());
-    report_.relocations += mesh_.relocate(ids_, targets_);
-    kept_ = ids_.size();
+    stayed_.clear();
+    report_.relocations += mesh_.relocate(ids_, targets_, &stayed_);
+    parts_.assign(ids_.size(), 1);
+    for (const std::size_t i : stayed_) parts_[i] = 0;
     if (guard_) take_back(old);
+    kept_ = ids_.size();
+    learn_steps();
     if (options_.uniform && undo_if_worse(old)) return relaxation_ > least_relaxation;
     report_.moves += kept_;
     ++report_.sweeps;
@@ -266,7 +270,6 @@ private:
   {
     place_.assign(mesh_.vertices().size(), none);
     for (std::size_t i = 0; i < ids_.size(); ++i) place_[static_cast<std::size_t>(ids_[i])] = i;
-    parts_.assign(ids_.size(), 1);
     auto bad = new_offenders();
     for (int round = 0; !bad.empty(); ++round) {
       const std::vector<std::size_t> shortened = shorten_moves(bad, round);
@@ -286,7 +289,6 @@ private:
       next.erase(std::unique(next.begin(), next.end()), next.end());
       bad.swap(next);
     }
-    learn_steps();
   }
 
   auto new_offenders()
@@ -352,7 +354,8 @@ private:
     return project_on_location(mesh_.oracle(), from + part * (to - from), at).value_or(from);
   }
 
-  /// Moves that had to be shortened begin shorter in the next sweep.
+  /// Moves that had to be shortened begin shorter in the next sweep. So do those of vertices that have stayed since
+  /// they would have had to be taken away and put back, which took a fifth of a sweep near convergence.
   void learn_steps()
   {
     for (std::size_t i = 0; i < ids_.size(); ++i) {
@@ -393,9 +396,10 @@ private:
   std::vector<std::size_t> first_;         ///< of each vertex in `stars_`
   std::vector<int> ids_;                   ///< of the vertices that a sweep moves
   std::vector<Point> targets_;
-  std::vector<std::size_t> place_; ///< by id: place in `ids_`
-  std::vector<double> parts_;      ///< of these moves, the parts that are made
-  std::size_t kept_ = 0;           ///< moves of a sweep that weren't taken back
+  std::vector<std::size_t> stayed_; ///< of these, by place: what would have had to be moved one by one
+  std::vector<std::size_t> place_;  ///< by id: place in `ids_`
+  std::vector<double> parts_;       ///< of these moves, the parts that are made
+  std::size_t kept_ = 0;            ///< moves of a sweep that weren't taken back
   std::vector<Vertex_handle> neighbours_;
   internal::Timer timer_;
   Smooth_report_3 report_;
