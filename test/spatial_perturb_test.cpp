@@ -230,7 +230,8 @@ TEST_CASE("moves, insertions and removals can be undone to the last cell")
     for (const auto v : mesh.vertices()) points.push_back(v->point());
     weft::Perturb_options_3 options;
     weft::Perturb_report_3 report;
-    Perturber perturber(mesh, criteria, options, report);
+    weft::Criteria_guard_3<Restricted> guard(mesh, criteria);
+    Perturber perturber(mesh, guard, options, report);
     perturber.set_bound(std::cos(0.1));
     perturber.set_kick_bound(std::cos(0.01));
     perturber.begin();
