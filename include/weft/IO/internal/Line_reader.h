@@ -63,6 +63,18 @@ public:
 
   bool at_end_of_line() const { return rest_.empty(); }
 
+  /// Number of the line, from 1.
+  std::size_t line() const { return line_; }
+
+  /// Goes on to the next line where this one is used up: for formats whose lines don't matter.
+  void require_word(const std::string& what)
+  {
+    if (rest_.empty()) require_line(what);
+  }
+
+  /// First character of the next word; only where `at_end_of_line()` is false.
+  char front() const { return rest_.front(); }
+
   /// Next word of the line.
   std::string_view word(const std::string& what)
   {
