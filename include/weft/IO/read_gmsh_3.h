@@ -9,6 +9,7 @@
 
 #include <weft/IO/internal/Line_reader.h>
 #include <weft/IO/internal/read_elements.h>
+#include <weft/IO/internal/Svg_canvas.h>
 #include <weft/spatial/Element_soup_3.h>
 
 #include <algorithm>
@@ -63,10 +64,10 @@ private:
   bool read_format()
   {
     in_.require_line("the version");
-    const std::string version(in_.word("the version"));
-    is_4_ = version == "4.1";
-    if (!is_4_ && version != "2" && version != "2.1" && version != "2.2")
-      in_.fail("version " + Line_reader::printable(version) + "; only 2, 2.1, 2.2 and 4.1 can be read");
+    const double version = in_.number("the version"); // Netgen writes 2.000000
+    is_4_ = version == 4.1;
+    if (!is_4_ && !(version >= 2 && version <= 2.2))
+      in_.fail("this is version " + one_decimal(version) + "; only 2 to 2.2 and 4.1 can be read");
     if (in_.integer("the type of file") != 0) in_.fail("the file is binary; only ASCII can be read");
     return true;
   }

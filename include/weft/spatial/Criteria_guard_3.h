@@ -54,7 +54,7 @@ public:
   /// Elements that are bad now are tolerated from now on, as long as they don't get worse. Linear in the size of the
   /// mesh.
   Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
-      : mesh_(mesh), measure_(mesh, criteria, 1), deviation_(mesh)
+      : mesh_(mesh), measure_(mesh, criteria, 1), deviation_(mesh), allowed_(criteria.deviation)
   {
     const Part all = everything();
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
@@ -267,14 +267,23 @@ private:
 
   Grade grade_by_distance(const Facet& f) const
   {
-    const Squared_deviation_3 d = deviation_.beyond(farthest_, f);
+    const Squared_deviation_3 d = deviation_.beyond(bound_at(f.steiner), f);
     return {0, d.depth, d.height, 0};
   }
 
   Grade grade(const Crease_edge& e) const
   {
-    const double d = deviation_.of(e);
-    return {ratio(measure_.crease_edge(e)), d > farthest_of_crease_ ? d : 0, 0, 0};
+    const double d = deviation_.of(e), allowed = allowed_ ? allowed_(e.steiner) : 0;
+    const double farthest = (std::max)(farthest_of_crease_, allowed * allowed);
+    return {ratio(measure_.crease_edge(e)), d > farthest ? d : 0, 0, 0};
+  }
+
+  Squared_deviation_3 bound_at(const typename Restricted::Point& p) const
+  {
+    Squared_deviation_3 bound = farthest_;
+    const double allowed = allowed_ ? allowed_(p) : 0;
+    bound.raise_to({allowed * allowed, allowed * allowed});
+    return bound;
   }
 
   static double ratio(const Badness_3& badness) { return badness.is_bad() ? badness.ratio : 0; }
@@ -325,8 +334,9 @@ private:
   std::vector<int> patches_;         ///< that have facets
   std::vector<std::size_t> creases_; ///< that have edges
   Deviation_3<Restricted> deviation_;
-  Squared_deviation_3 farthest_;  ///< that facets may be
-  double farthest_of_crease_ = 0; ///< that crease edges may be, squared
+  Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
+  Squared_deviation_3 farthest_;   ///< that facets may be
+  double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
   /// For what lies between the samples. With 0.9 the distance of homer rises by 15 % over a whole run as far as it
   /// goes.
   static constexpr double closer = 0.85;

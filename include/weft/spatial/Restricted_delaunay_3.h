@@ -104,6 +104,19 @@ public:
   /// All vertices but those of the box, by id; null for those that `coarsen_3()` has taken away so far while it runs.
   const std::vector<Vertex_handle>& vertices() const { return vertices_; }
 
+  /// Makes a vertex stay where it is: neither smoothing nor perturbation nor coarsening touch it from now on.
+  void fix(Vertex_handle v)
+  {
+    if (fixed_.size() < vertices_.size()) fixed_.resize(vertices_.size(), false);
+    fixed_[static_cast<std::size_t>(v->id())] = true;
+  }
+  /// Whether a vertex must stay: a feature vertex, or one that was fixed.
+  bool is_fixed(Vertex_handle v) const
+  {
+    const auto id = static_cast<std::size_t>(v->id());
+    return v->location().dimension < 1 || (id < fixed_.size() && fixed_[id]);
+  }
+
   /// Records of restricted facets; those with a null cell are unused.
   const std::vector<Restricted_facet>& facets() const { return facets_; }
   /// The restricted facet opposite to vertex i of c, or null.
@@ -175,10 +188,12 @@ public:
       vertices_[k] = vertices_.back();
       vertices_[k]->set_id(id);
       touched_[k] = touched_.back();
+      if (k < fixed_.size()) fixed_[k] = vertices_.size() <= fixed_.size() && fixed_[vertices_.size() - 1];
       tracer_.renumber();
     }
     vertices_.pop_back();
     touched_.pop_back();
+    if (fixed_.size() > vertices_.size()) fixed_.pop_back();
     new_cells_ = filling;
     update();
   }
@@ -190,6 +205,10 @@ public:
     std::vector<int> numbers;
     int next = 0;
     for (const Vertex_handle v : vertices_) numbers.push_back(v == Vertex_handle() ? -1 : next++);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < fixed_.size(); ++i)
+      if (vertices_[i] != Vertex_handle()) fixed_[n++] = fixed_[i];
+    fixed_.resize(n);
     vertices_.erase(std::remove(vertices_.begin(), vertices_.end(), Vertex_handle()), vertices_.end());
     for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i]->set_id(static_cast<int>(i));
     touched_.assign(vertices_.size(), update_number_);
@@ -205,6 +224,10 @@ public:
     if (a == b) return;
     std::swap(vertices_[a], vertices_[b]);
     std::swap(touched_[a], touched_[b]);
+    if (!fixed_.empty()) {
+      fixed_.resize(vertices_.size(), false);
+      std::swap(fixed_[a], fixed_[b]);
+    }
     vertices_[a]->set_id(i);
     vertices_[b]->set_id(j);
     tracer_.renumber();
@@ -297,6 +320,32 @@ public:
     for (const Cell_handle c : tr_->finite_cell_handles())
       if (!c->is_classified()) new_cells_.push_back(c);
     classify();
+  }
+
+  /// Inserts distinct points, each with its location, and classifies what is there at the end. Points are numbered in
+  /// the order given, after the vertices that there are. \pre they lie inside the box.
+  void insert(const std::vector<Point>& points, const std::vector<Vertex_location_3>& locations)
+  {
+    std::vector<std::size_t> order(points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    using Points = typename CGAL::Pointer_property_map<Point>::const_type;
+    CGAL::spatial_sort(order.begin(), order.end(),
+                       CGAL::Spatial_sort_traits_adapter_3<Kernel, Points>(CGAL::make_property_map(points)));
+    const std::size_t before = vertices_.size();
+    vertices_.resize(before + points.size());
+    touched_.resize(vertices_.size(), update_number_);
+    Zone zone;
+    creases_are_stale_ = true;
+    Cell_handle hint;
+    for (const std::size_t i : order) {
+      if (find_conflict_zone(*tr_, points[i], tr_->locate(points[i], hint), no_batch, zone) != Zone_result::found)
+        continue;
+      hint = insert(zone, locations[i], static_cast<int>(before + i))->cell();
+      new_cells_.clear(); // some of them don't live to see the end
+    }
+    for (const Cell_handle c : tr_->finite_cell_handles())
+      if (!c->is_classified()) new_cells_.push_back(c);
+    update();
   }
 
   /// Moves vertices, by their ids, to new places and classifies what that changes. They move all at once and flips
@@ -635,6 +684,7 @@ private:
   std::unique_ptr<Triangulation> tr_; ///< at a fixed place, so that handles survive moves of this object
   Crease_tracer_3<Triangulation> tracer_;
   std::vector<Vertex_handle> vertices_;
+  std::vector<char> fixed_;  ///< by vertex, those at the end may be missing: see `is_fixed()`
   std::vector<int> touched_; ///< by vertex: number of the update before which its star changed last
   int update_number_ = 0;
   int batches_ = 0;

@@ -31,6 +31,15 @@
 
 namespace weft {
 
+/// The vertices of a mesh that there is already.
+template <class K>
+struct Initial_vertices_3
+{
+  std::vector<typename K::Point_3> points;  ///< distinct
+  std::vector<Vertex_location_3> locations; ///< in the oracle's numbers; all its corners are among them
+  std::vector<std::size_t> fixed;           ///< those that have to stay where they are
+};
+
 /// Meshes the domain behind an oracle; see `make_mesh_3()`.
 template <class Oracle>
 class Spatial_mesher_3
@@ -45,23 +54,30 @@ public:
       : oracle_(oracle), criteria_(criteria), options_(options), mesh_(oracle, options.threads)
   {}
 
+  /// The same beginning with vertices that there are: these instead of seeds, and refinement only as far as the
+  /// criteria ask for it.
+  Spatial_mesher_3(const Oracle& oracle, const Criteria_3<Kernel>& criteria, const Mesh_options_3& options,
+                   const Initial_vertices_3<Kernel>& initial)
+      : Spatial_mesher_3(oracle, criteria, options)
+  {
+    initial_ = &initial;
+  }
+
   /// Runs; afterwards `take_mesh()` has the mesh.
   Mesh_report_3 run()
   {
     begin_stage("initialisation", Stage::seeding);
-    insert_corners();
-    insert_crease_seeds();
-    begin_stage("first surface", Stage::refinement);
-    bool go_on = refine(options_.initial_relaxation, false) && seed_patches();
+    bool go_on = initial_ ? take_initial() : seed();
     begin_stage("surface", Stage::refinement);
     go_on = go_on && refine_surface();
     begin_stage("lattice", Stage::seeding);
-    if (go_on && options_.lattice && criteria_.size.is_constant()) insert_lattice();
+    if (go_on && !initial_ && options_.lattice && criteria_.size.is_constant()) insert_lattice();
     begin_stage("interior", Stage::refinement);
     go_on = go_on && refine(1, true);
     go_on = go_on && optimise();
     begin_stage("perturbation", Stage::polishing);
-    if (go_on && options_.min_dihedral_angle > 0 && is_good()) perturb();
+    // Given vertices may be beyond what criteria can mend; their slivers are wanted gone all the same.
+    if (go_on && options_.min_dihedral_angle > 0 && (initial_ || is_good())) perturb();
     end_stage();
     fill_report(mesh_, criteria_, size_floor(), report_);
     return report_;
@@ -73,6 +89,21 @@ public:
   Restricted take_mesh() { return std::move(mesh_); }
 
 private:
+  bool take_initial()
+  {
+    mesh_.insert(initial_->points, initial_->locations);
+    for (const std::size_t i : initial_->fixed) mesh_.fix(mesh_.vertices()[i]);
+    return visit(0) || stop(Stop_reason::cancelled);
+  }
+
+  bool seed()
+  {
+    insert_corners();
+    insert_crease_seeds();
+    begin_stage("first surface", Stage::refinement);
+    return refine(options_.initial_relaxation, false) && seed_patches();
+  }
+
   void insert_corners()
   {
     for (std::size_t i = 0; i < oracle_.number_of_corners(); ++i)
@@ -312,6 +343,7 @@ private:
   const Oracle& oracle_;
   const Criteria_3<Kernel>& criteria_;
   const Mesh_options_3& options_;
+  const Initial_vertices_3<Kernel>* initial_ = nullptr;
   Restricted mesh_;
   std::optional<Criteria_guard_3<Restricted>> guard_; ///< from when refinement has ended
   Mesh_report_3 report_;

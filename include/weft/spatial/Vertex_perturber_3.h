@@ -89,7 +89,7 @@ public:
   {
     const Vertex_handle v = vertex(id);
     location_ = v->location();
-    if (location_.dimension < 1) return false;
+    if (mesh_.is_fixed(v)) return false;
     load_star(v);
     if (purpose == Purpose::mend && limit_ <= bound_) return false; // mended meanwhile
     if (purpose == Purpose::mend || purpose == Purpose::better) limit_ -= Judge::least_gain;
@@ -162,7 +162,7 @@ public:
   {
     const Vertex_handle v = vertex(id);
     location_ = v->location();
-    if (location_.dimension < 1) return false;
+    if (mesh_.is_fixed(v)) return false;
     load_star(v);
     const Point origin = v->point();
     take(mesh_.take_away(v));

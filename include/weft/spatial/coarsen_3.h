@@ -94,7 +94,7 @@ private:
     if (report_.passes == 1) leave_excellent();
     std::vector<std::pair<double, int>> order;
     for (const Vertex_handle v : mesh_.vertices())
-      if (v != Vertex_handle() && v->location().dimension >= 1 && is_promising_[static_cast<std::size_t>(v->id())])
+      if (v != Vertex_handle() && !mesh_.is_fixed(v) && is_promising_[static_cast<std::size_t>(v->id())])
         order.emplace_back(shortest_edge(v), v->id());
     std::sort(order.begin(), order.end());
     for (std::size_t i = 0; i < order.size(); ++i) {

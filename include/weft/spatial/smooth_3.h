@@ -176,7 +176,7 @@ private:
       char& f = is_free[static_cast<std::size_t>(v->id())];
       const int dimension = v->location().dimension;
       report_.locked += !f && dimension > 0;
-      if (dimension == 0 || (dimension < 3 && !Smoother::moves_boundary)) f = false;
+      if (mesh_.is_fixed(v) || (dimension < 3 && !Smoother::moves_boundary)) f = false;
     }
     return is_free;
   }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// START HERE with a tetrahedral mesh that you have. `optimise_3()` raises its smallest dihedral angles: with a boundary
+// that slides on itself the mesh becomes a Delaunay mesh of the same domain with about the same vertices; with a fixed
+// boundary every boundary triangle stays.
+//
+//   const auto input = weft::IO::read_tetrahedral_mesh<K>("part.mesh");
+//   const auto [mesh, report] = weft::optimise_3(input.mesh);
+//   weft::IO::write_mesh_3("better.mesh", mesh);
+
+#ifndef WEFT_OPTIMISE_3_H
+#define WEFT_OPTIMISE_3_H
+
+#include <weft/errors.h>
+#include <weft/spatial/Improve_options_3.h>
+#include <weft/spatial/quality_3.h>
+#include <weft/spatial/Sliding_improver_3.h>
+#include <weft/spatial/Tetrahedral_mesh_3.h>
+#include <weft/spatial/validate_3.h>
+
+#include <CGAL/Kernel/global_functions.h>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace weft {
+
+/// Result of `optimise_3()`.
+template <class K>
+struct Improve_result_3
+{
+  Tetrahedral_mesh_3<K> mesh;
+  Improve_report_3 report;
+};
+
+namespace internal {
+
+template <class K>
+std::size_t count_inverted(const Tetrahedral_mesh_3<K>& mesh)
+{
+  std::size_t n = 0;
+  for (const auto& c : mesh.cells)
+    n +=
+        CGAL::orientation(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]], mesh.points[c[3]]) != CGAL::POSITIVE;
+  return n;
+}
+
+/// \throws Domain_error if the arrays aren't those of a mesh.
+template <class K>
+void require_structure(const Tetrahedral_mesh_3<K>& mesh)
+{
+  Validity_3 validity = check_structure_3(mesh);
+  if (validity.ok()) validity += check_boundary_3(mesh);
+  if (validity.ok() || validity.faults.empty()) return;
+  const Fault_3& fault = validity.faults.front();
+  throw Domain_error(fault.text + "; assemble_mesh_3() makes a mesh of points and cells", fault.vertices, {});
+}
+
+} // namespace internal
+
+/// Improves a mesh.
+/// \param mesh from a reader, `from_c3t3()` or `assemble_mesh_3()`; cells may be slivers, not Delaunay, or inverted.
+/// \throws Option_error for options out of range; Domain_error if the arrays aren't a mesh, or if the boundary is to
+///   slide and isn't a closed surface without self-intersections.
+template <class K>
+Improve_result_3<K> optimise_3(const Tetrahedral_mesh_3<K>& mesh,
+                               const Improve_options_3& options = Improve_options_3())
+{
+  options.check();
+  internal::require_structure(mesh);
+  for (const std::size_t v : options.fixed_vertices)
+    if (v >= mesh.points.size()) throw Option_error("there is no vertex " + std::to_string(v) + " to be fixed");
+  Improve_result_3<K> result;
+  result.report.before = measure_quality_3(mesh);
+  result.report.inverted_before = internal::count_inverted(mesh);
+  result.mesh = improve_sliding_3(mesh, options, result.report);
+  result.report.after = measure_quality_3(result.mesh);
+  result.report.inverted_after = internal::count_inverted(result.mesh);
+  return result;
+}
+
+} // namespace weft
+
+#endif // WEFT_OPTIMISE_3_H

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Improvement of a tetrahedral mesh whose boundary slides on itself: the boundary triangles are the domain, the
+// vertices of the mesh those that meshing begins with (Tournois 2009, sec. 3.2, from the second step on).
+
+#ifndef WEFT_SPATIAL_SLIDING_IMPROVER_3_H
+#define WEFT_SPATIAL_SLIDING_IMPROVER_3_H
+
+#include <weft/errors.h>
+#include <weft/internal/Mesh_facets_3.h>
+#include <weft/options.h>
+#include <weft/spatial/Boundary_sizing_3.h>
+#include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/extract_mesh_3.h>
+#include <weft/spatial/features_3.h>
+#include <weft/spatial/Improve_options_3.h>
+#include <weft/spatial/Piecewise_smooth_complex_3.h>
+#include <weft/spatial/Polyhedral_oracle_3.h>
+#include <weft/spatial/Spatial_mesher_3.h>
+#include <weft/spatial/Tetrahedral_mesh_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace weft {
+namespace internal {
+
+/// The lengths that meshing is held to: loose sizes, and an approximation that follows the boundary's own edges.
+template <class K>
+Criteria_3<K> criteria_of_mesh(const Tetrahedral_mesh_3<K>& mesh, const Boundary_sizing_3<K>& sizing,
+                               const Improve_options_3& options)
+{
+  double longest = 0;
+  for (const auto& c : mesh.cells)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j)
+        longest = (std::max)(longest, CGAL::to_double(CGAL::squared_distance(mesh.points[c[i]], mesh.points[c[j]])));
+  const auto deviation = [sizing, part = options.deviation](const typename K::Point_3& p) { return part * sizing(p); };
+  Criteria_3<K> criteria;
+  criteria.size = 1.5 * std::sqrt(longest); // no element of the input is too large, nor becomes so by sliding
+  criteria.approximation = deviation;
+  criteria.deviation = deviation;
+  criteria.facet_shape = criteria.cell_shape = 0;
+  criteria.topology = criteria.manifold = true;
+  return criteria;
+}
+
+/// Options of the mesher.
+inline Mesh_options_3 mesher_options(const Improve_options_3& options, double size_floor)
+{
+  Mesh_options_3 result;
+  result.coarsen = options.coarsen;
+  result.smoothing_sweeps = options.smoothing_sweeps;
+  result.min_dihedral_angle = options.min_dihedral_angle;
+  result.size_floor = size_floor;
+  result.lattice = false;
+  result.max_vertices = options.max_vertices;
+  result.time_limit = options.time_limit;
+  result.seed = options.seed;
+  result.threads = options.threads;
+  result.visitor = options.visitor;
+  return result;
+}
+
+/// Takes what the mesher reports over.
+inline void take_report(const Mesh_report_3& from, Improve_report_3& to)
+{
+  to.manifold = from.manifold;
+  to.unrepresented = from.bad();
+  to.moves = from.smoothing_moves + from.perturbed;
+  to.insertions = from.perturb_insertions;
+  to.removals = from.coarsened;
+  to.stop_reason = from.stop_reason;
+  to.stage_seconds = from.stage_seconds;
+}
+
+/// The domain that a mesh bounds, and its vertices in the numbers of that domain.
+template <class K>
+class Mesh_boundary_3
+{
+public:
+  /// \throws Domain_error if the boundary isn't a closed surface without self-intersections.
+  Mesh_boundary_3(const Tetrahedral_mesh_3<K>& mesh, double sharp_angle) : mesh_(mesh)
+  {
+    for (const int s : mesh.subdomains)
+      if (s != mesh.subdomains.front())
+        throw Domain_error("the mesh has several subdomains; only fixed boundaries are possible then", {}, {});
+    complex_ = piecewise_smooth_complex(mesh.points, mesh.facets, feature_options(sharp_angle));
+    place_vertices();
+    name_parts();
+  }
+
+  const Piecewise_smooth_complex_3<K>& complex() const { return complex_; }
+
+  /// Where the vertices of the mesh lie.
+  const std::vector<Vertex_location_3>& locations() const { return locations_; }
+
+  /// Gives patches, creases and subdomain the numbers that they have in the mesh.
+  void restore_names(Tetrahedral_mesh_3<K>& result) const
+  {
+    for (int& patch : result.patches) patch = patch_names_[static_cast<std::size_t>(patch)];
+    for (int& crease : result.creases) crease = crease_names_[static_cast<std::size_t>(crease)];
+    result.subdomains.assign(result.cells.size(), mesh_.subdomains.front());
+    for (auto& at : result.locations) {
+      if (at.dimension == 1) at.index = crease_names_[static_cast<std::size_t>(at.index)];
+      if (at.dimension == 2) at.index = patch_names_[static_cast<std::size_t>(at.index)];
+      if (at.dimension == 3) at.index = mesh_.subdomains.front();
+    }
+  }
+
+private:
+  using Edge = std::array<std::size_t, 2>;
+
+  /// Sharp whatever their angle: edges listed, and those between patches.
+  Feature_options feature_options(double sharp_angle) const
+  {
+    Feature_options options(sharp_angle);
+    options.sharp_edges = mesh_.edges;
+    std::vector<std::pair<Edge, int>> sides;
+    for (std::size_t f = 0; f < mesh_.facets.size(); ++f)
+      for (std::size_t i = 0; i < 3; ++i)
+        sides.emplace_back(sorted<2>({mesh_.facets[f][i], mesh_.facets[f][(i + 1) % 3]}), mesh_.patches[f]);
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t i = 1; i < sides.size(); ++i)
+      if (sides[i - 1].first == sides[i].first && sides[i - 1].second != sides[i].second)
+        options.sharp_edges.push_back(sides[i].first);
+    options.tips_and_cusps = mesh_.corners;
+    return options;
+  }
+
+  void place_vertices()
+  {
+    std::vector<Vertex_location_3> of_complex(complex_.points.size(), {4, 0});
+    for (std::size_t t = complex_.triangles.size(); t-- > 0;)
+      for (const std::size_t v : complex_.triangles[t]) of_complex[v] = {2, complex_.patches[t]};
+    for (std::size_t c = 0; c < complex_.creases.size(); ++c)
+      for (const std::size_t v : complex_.creases[c].vertices) of_complex[v] = {1, static_cast<int>(c)};
+    for (std::size_t i = 0; i < complex_.features.size(); ++i)
+      of_complex[complex_.features[i].vertex] = {0, static_cast<int>(i)};
+    std::vector<char> is_on_boundary(mesh_.points.size(), false);
+    for (const auto& facet : mesh_.facets)
+      for (const std::size_t v : facet) is_on_boundary[v] = true;
+    for (std::size_t v = 0, next = 0; v < mesh_.points.size(); ++v) { // the complex keeps the order
+      locations_.push_back(is_on_boundary[v] ? of_complex[next] : Vertex_location_3{3, 1});
+      if (is_on_boundary[v]) original_.push_back(v), ++next;
+    }
+  }
+
+  /// What the parts of the complex are called in the mesh. Creases found by angle come after the listed ones.
+  void name_parts()
+  {
+    std::map<std::array<std::size_t, 3>, int> patch_of;
+    for (std::size_t f = 0; f < mesh_.facets.size(); ++f) patch_of[sorted(mesh_.facets[f])] = mesh_.patches[f];
+    patch_names_.assign(static_cast<std::size_t>(complex_.number_of_patches), 0);
+    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
+      auto triangle = complex_.triangles[t];
+      for (std::size_t& v : triangle) v = original_[v];
+      patch_names_[static_cast<std::size_t>(complex_.patches[t])] = patch_of.at(sorted(triangle));
+    }
+    std::map<Edge, int> crease_of;
+    int unnamed = 0;
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+      crease_of[sorted(mesh_.edges[e])] = mesh_.creases[e];
+      unnamed = (std::max)(unnamed, mesh_.creases[e] + 1);
+    }
+    for (const auto& crease : complex_.creases) {
+      const auto found = crease_of.find(sorted<2>({original_[crease.vertices[0]], original_[crease.vertices[1]]}));
+      crease_names_.push_back(found == crease_of.end() ? unnamed++ : found->second);
+    }
+  }
+
+  const Tetrahedral_mesh_3<K>& mesh_;
+  Piecewise_smooth_complex_3<K> complex_;
+  std::vector<Vertex_location_3> locations_;
+  std::vector<std::size_t> original_; ///< by point of the complex, its number in the mesh
+  std::vector<int> patch_names_, crease_names_;
+};
+
+} // namespace internal
+
+/// Improves a mesh whose boundary slides on itself.
+template <class K>
+Tetrahedral_mesh_3<K> improve_sliding_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options,
+                                        Improve_report_3& report)
+{
+  const internal::Mesh_boundary_3<K> boundary(mesh, options.sharp_angle);
+  for (const auto& change : boundary.complex().changes) report.notes.push_back(change);
+  const Boundary_sizing_3<K> sizing(boundary.complex().points, boundary.complex().triangles);
+  const Criteria_3<K> criteria = internal::criteria_of_mesh(mesh, sizing, options);
+  const Polyhedral_oracle_3<K> oracle(boundary.complex());
+  const Initial_vertices_3<K> initial{mesh.points, boundary.locations(), options.fixed_vertices};
+  const Mesh_options_3 mesher_options = internal::mesher_options(options, 0.1 * sizing.shortest_edge());
+  Spatial_mesher_3<Polyhedral_oracle_3<K>> mesher(oracle, criteria, mesher_options, initial);
+  internal::take_report(mesher.run(), report);
+  auto result = tetrahedral_mesh(mesher.mesh());
+  boundary.restore_names(result);
+  return result;
+}
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_SLIDING_IMPROVER_3_H
