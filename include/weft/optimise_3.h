@@ -12,6 +12,7 @@
 #define WEFT_OPTIMISE_3_H
 
 #include <weft/errors.h>
+#include <weft/spatial/improve_fixed_3.h>
 #include <weft/spatial/Improve_options_3.h>
 #include <weft/spatial/quality_3.h>
 #include <weft/spatial/Sliding_improver_3.h>
@@ -74,7 +75,10 @@ Improve_result_3<K> optimise_3(const Tetrahedral_mesh_3<K>& mesh,
   Improve_result_3<K> result;
   result.report.before = measure_quality_3(mesh);
   result.report.inverted_before = internal::count_inverted(mesh);
-  result.mesh = improve_sliding_3(mesh, options, result.report);
+  const bool slides = options.boundary == Boundary_3::slide;
+  result.mesh =
+      slides ? improve_sliding_3(mesh, options, result.report) : improve_fixed_3(mesh, options, result.report);
+  if (!slides) result.report.manifold = check_manifold_3(result.mesh).ok();
   result.report.after = measure_quality_3(result.mesh);
   result.report.inverted_after = internal::count_inverted(result.mesh);
   return result;
