@@ -7,6 +7,7 @@
 
 #include <weft/IO/report_json.h>
 #include <weft/report.h>
+#include <weft/spatial/Improve_options_3.h>
 #include <weft/spatial/quality_3.h>
 
 #include <ostream>
@@ -59,9 +60,9 @@ inline void append_json(Json_text& json, std::string_view name, const Angle_extr
   json.numbers("vertices", angle.vertices).end();
 }
 
-inline void append_json(Json_text& json, const Quality_3& q)
+inline void append_json(Json_text& json, const Quality_3& q, std::string_view name = "quality")
 {
-  json.begin_object("quality");
+  json.begin_object(name);
   json.member("cells", q.cells).member("vertices", q.vertices).member("facets", q.facets);
   json.member("volume", q.volume).member("boundary_area", q.boundary_area);
   append_json(json, "smallest_dihedral", q.smallest_dihedral, "cell");
@@ -80,6 +81,26 @@ inline void append_json(Json_text& json, const Quality_3& q)
   json.begin_object("dihedral_histogram").member("bin_degrees", 180 / Quality_3::bins);
   json.numbers("counts", q.dihedrals).end();
   json.end();
+}
+
+inline std::string report_json(const Improve_report_3& r)
+{
+  Json_text json;
+  json.begin_object().member("ok", r.ok()).member("stop_reason", name(r.stop_reason)).member("manifold", r.manifold);
+  json.member("inverted_before", r.inverted_before).member("inverted_after", r.inverted_after);
+  json.member("unrepresented", r.unrepresented).member("boundary_bound", r.boundary_bound);
+  json.member("moves", r.moves).member("insertions", r.insertions).member("removals", r.removals);
+  json.member("flips", r.flips);
+  json.begin_array("notes");
+  for (const std::string& note : r.notes) json.begin_object().member("note", note).end();
+  json.end().begin_array("stages");
+  for (const auto& [stage, seconds] : r.stage_seconds)
+    json.begin_object().member("name", stage).member("seconds", seconds).end();
+  json.end();
+  append_json(json, r.before, "before");
+  append_json(json, r.after, "after");
+  json.end();
+  return json.text() + "\n";
 }
 
 inline std::string report_json(const Mesh_report_3& report, const Quality_3& quality)
@@ -108,6 +129,13 @@ inline void write_report_json(std::ostream& out, const Mesh_report_3& report, co
 inline void write_report_json(const std::string& filename, const Mesh_report_3& report, const Quality_3& quality)
 {
   internal::write_text_file(filename, internal::report_json(report, quality));
+}
+
+/// Writes what `optimise_3()` did, with the quality of the mesh before and after as members "before" and "after".
+/// \throws File_error if the file can't be written.
+inline void write_report_json(const std::string& filename, const Improve_report_3& report)
+{
+  internal::write_text_file(filename, internal::report_json(report));
 }
 
 } // namespace IO

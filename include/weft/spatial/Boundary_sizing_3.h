@@ -57,7 +57,9 @@ public:
     data_->surface = internal::Triangle_hierarchy_3<K>(all);
   }
 
-  double operator()(const Point& p) const { return data_->sizes[data_->surface.nearest(p).triangle]; }
+  double operator()(const Point& p) const { return data_->sizes[nearest_triangle(p)]; }
+
+  std::size_t nearest_triangle(const Point& p) const { return data_->surface.nearest(p).triangle; }
 
   double shortest_edge() const { return data_->shortest; }
   double longest_edge() const { return data_->longest; }

@@ -23,7 +23,7 @@ namespace weft {
 /// What may happen to the boundary of a mesh.
 enum class Boundary_3
 {
-  slide, ///< vertices slide on the surface that the boundary triangles of the input are; the result is Delaunay
+  slide, ///< vertices slide on the surface that the boundary triangles of the input are
   fixed  ///< every boundary and interface triangle stays as it is; only what lies inside changes
 };
 
@@ -35,14 +35,21 @@ struct Improve_options_3
 
   /// Smallest dihedral angle in degrees to reach; 90: as far as it goes, which takes long without a `time_limit`.
   double min_dihedral_angle = 25;
-  /// Edges of the boundary are sharp from this angle between the normals of their facets on, in degrees; 0: none. Edges
-  /// between patches and those listed in the mesh are sharp in any case. Only for boundaries that slide.
+  // For boundaries that slide:
+
+  /// Edges of the boundary are sharp from this angle between the normals of their facets on, in degrees; 0: none by
+  /// their angle.
   double sharp_angle = 60;
-  /// How far the boundary may get from that of the input where it slides, in parts of the length of boundary edges
-  /// nearby.
-  double deviation = 0.05;
-  int smoothing_sweeps = 3; ///< most sweeps of smoothing before perturbation; only for boundaries that slide
-  bool coarsen = false;     ///< take away vertices that neither the boundary nor sizes need; only where it slides
+  /// Whether edges between patches and those listed in the mesh are sharp, too, and its corners stay. Else patches are
+  /// what the nearest triangle of the input belongs to: for tags that mean nothing, such as the charts that Netgen cuts
+  /// surfaces into, which would cost vertices.
+  bool tagged_features = true;
+  /// How far the boundary may get from that of the input, in parts of the length of boundary edges nearby.
+  double deviation = 0.1;
+  int smoothing_sweeps = 3; ///< most sweeps of smoothing
+  bool coarsen = false;     ///< take away vertices that neither the boundary nor sizes need
+  /// Whether the mesh ends as a Delaunay mesh, by perturbation of its vertices. Local changes reach more in less time.
+  bool delaunay = false;
 
   std::size_t max_vertices = 20000000;                         ///< vertex budget
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time

@@ -13,12 +13,14 @@
 #include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/extract_mesh_3.h>
 #include <weft/spatial/features_3.h>
+#include <weft/spatial/improve_fixed_3.h>
 #include <weft/spatial/Improve_options_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/Polyhedral_oracle_3.h>
 #include <weft/spatial/Spatial_mesher_3.h>
 #include <weft/spatial/Tetrahedral_mesh_3.h>
 
+#include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
@@ -59,7 +61,7 @@ inline Mesh_options_3 mesher_options(const Improve_options_3& options, double si
   Mesh_options_3 result;
   result.coarsen = options.coarsen;
   result.smoothing_sweeps = options.smoothing_sweeps;
-  result.min_dihedral_angle = options.min_dihedral_angle;
+  result.min_dihedral_angle = options.delaunay ? options.min_dihedral_angle : 0;
   result.size_floor = size_floor;
   result.lattice = false;
   result.max_vertices = options.max_vertices;
@@ -88,12 +90,12 @@ class Mesh_boundary_3
 {
 public:
   /// \throws Domain_error if the boundary isn't a closed surface without self-intersections.
-  Mesh_boundary_3(const Tetrahedral_mesh_3<K>& mesh, double sharp_angle) : mesh_(mesh)
+  Mesh_boundary_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options) : mesh_(mesh)
   {
     for (const int s : mesh.subdomains)
       if (s != mesh.subdomains.front())
         throw Domain_error("the mesh has several subdomains; only fixed boundaries are possible then", {}, {});
-    complex_ = piecewise_smooth_complex(mesh.points, mesh.facets, feature_options(sharp_angle));
+    complex_ = piecewise_smooth_complex(mesh.points, mesh.facets, feature_options(options));
     place_vertices();
     name_parts();
   }
@@ -104,14 +106,24 @@ public:
   const std::vector<Vertex_location_3>& locations() const { return locations_; }
 
   /// Gives patches, creases and subdomain the numbers that they have in the mesh.
-  void restore_names(Tetrahedral_mesh_3<K>& result) const
+  /// \param sizing knows the nearest of the complex' triangles.
+  void restore_names(const Boundary_sizing_3<K>& sizing, Tetrahedral_mesh_3<K>& result) const
   {
-    for (int& patch : result.patches) patch = patch_names_[static_cast<std::size_t>(patch)];
+    const auto patch_at = [&](const typename K::Point_3& p) { return names_of_triangles_[sizing.nearest_triangle(p)]; };
+    for (std::size_t f = 0; f < result.facets.size(); ++f) {
+      const auto& v = result.facets[f];
+      int& patch = result.patches[f];
+      patch = names_are_unique_
+                  ? patch_names_[static_cast<std::size_t>(patch)]
+                  : patch_at(CGAL::centroid(result.points[v[0]], result.points[v[1]], result.points[v[2]]));
+    }
     for (int& crease : result.creases) crease = crease_names_[static_cast<std::size_t>(crease)];
     result.subdomains.assign(result.cells.size(), mesh_.subdomains.front());
-    for (auto& at : result.locations) {
+    for (std::size_t v = 0; v < result.points.size(); ++v) {
+      auto& at = result.locations[v];
       if (at.dimension == 1) at.index = crease_names_[static_cast<std::size_t>(at.index)];
-      if (at.dimension == 2) at.index = patch_names_[static_cast<std::size_t>(at.index)];
+      if (at.dimension == 2)
+        at.index = names_are_unique_ ? patch_names_[static_cast<std::size_t>(at.index)] : patch_at(result.points[v]);
       if (at.dimension == 3) at.index = mesh_.subdomains.front();
     }
   }
@@ -120,10 +132,12 @@ private:
   using Edge = std::array<std::size_t, 2>;
 
   /// Sharp whatever their angle: edges listed, and those between patches.
-  Feature_options feature_options(double sharp_angle) const
+  Feature_options feature_options(const Improve_options_3& improve_options) const
   {
-    Feature_options options(sharp_angle);
+    Feature_options options(improve_options.sharp_angle);
+    if (!improve_options.tagged_features) return options;
     options.sharp_edges = mesh_.edges;
+    options.tips_and_cusps = mesh_.corners;
     std::vector<std::pair<Edge, int>> sides;
     for (std::size_t f = 0; f < mesh_.facets.size(); ++f)
       for (std::size_t i = 0; i < 3; ++i)
@@ -132,7 +146,6 @@ private:
     for (std::size_t i = 1; i < sides.size(); ++i)
       if (sides[i - 1].first == sides[i].first && sides[i - 1].second != sides[i].second)
         options.sharp_edges.push_back(sides[i].first);
-    options.tips_and_cusps = mesh_.corners;
     return options;
   }
 
@@ -159,11 +172,14 @@ private:
   {
     std::map<std::array<std::size_t, 3>, int> patch_of;
     for (std::size_t f = 0; f < mesh_.facets.size(); ++f) patch_of[sorted(mesh_.facets[f])] = mesh_.patches[f];
-    patch_names_.assign(static_cast<std::size_t>(complex_.number_of_patches), 0);
+    patch_names_.assign(static_cast<std::size_t>(complex_.number_of_patches), unnamed_patch);
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
       auto triangle = complex_.triangles[t];
       for (std::size_t& v : triangle) v = original_[v];
-      patch_names_[static_cast<std::size_t>(complex_.patches[t])] = patch_of.at(sorted(triangle));
+      int& name = patch_names_[static_cast<std::size_t>(complex_.patches[t])];
+      names_of_triangles_.push_back(patch_of.at(sorted(triangle)));
+      names_are_unique_ = names_are_unique_ && (name == unnamed_patch || name == names_of_triangles_.back());
+      name = names_of_triangles_.back();
     }
     std::map<Edge, int> crease_of;
     int unnamed = 0;
@@ -181,17 +197,37 @@ private:
   Piecewise_smooth_complex_3<K> complex_;
   std::vector<Vertex_location_3> locations_;
   std::vector<std::size_t> original_; ///< by point of the complex, its number in the mesh
-  std::vector<int> patch_names_, crease_names_;
+  static constexpr int unnamed_patch = -1;
+  std::vector<int> patch_names_, crease_names_, names_of_triangles_;
+  bool names_are_unique_ = true; ///< whether every patch of the complex has one name
 };
 
 } // namespace internal
+
+/// Local changes inside, after the boundary has slid to where it is good.
+template <class K>
+Tetrahedral_mesh_3<K> finish_locally(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options,
+                                     Improve_report_3& report)
+{
+  Improve_options_3 rest = options;
+  for (const auto& stage : report.stage_seconds) rest.time_limit = (std::max)(0.0, rest.time_limit - stage.second);
+  Improve_report_3 local;
+  auto result = improve_fixed_3(mesh, rest, local);
+  report.moves += local.moves;
+  report.insertions += local.insertions;
+  report.removals += local.removals;
+  report.flips += local.flips;
+  if (local.stop_reason != Stop_reason::criteria_met) report.stop_reason = local.stop_reason;
+  report.stage_seconds.insert(report.stage_seconds.end(), local.stage_seconds.begin(), local.stage_seconds.end());
+  return result;
+}
 
 /// Improves a mesh whose boundary slides on itself.
 template <class K>
 Tetrahedral_mesh_3<K> improve_sliding_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options,
                                         Improve_report_3& report)
 {
-  const internal::Mesh_boundary_3<K> boundary(mesh, options.sharp_angle);
+  const internal::Mesh_boundary_3<K> boundary(mesh, options);
   for (const auto& change : boundary.complex().changes) report.notes.push_back(change);
   const Boundary_sizing_3<K> sizing(boundary.complex().points, boundary.complex().triangles);
   const Criteria_3<K> criteria = internal::criteria_of_mesh(mesh, sizing, options);
@@ -201,8 +237,10 @@ Tetrahedral_mesh_3<K> improve_sliding_3(const Tetrahedral_mesh_3<K>& mesh, const
   Spatial_mesher_3<Polyhedral_oracle_3<K>> mesher(oracle, criteria, mesher_options, initial);
   internal::take_report(mesher.run(), report);
   auto result = tetrahedral_mesh(mesher.mesh());
-  boundary.restore_names(result);
-  return result;
+  boundary.restore_names(sizing, result);
+  if (options.delaunay || report.stop_reason == Stop_reason::cancelled || report.stop_reason == Stop_reason::time_limit)
+    return result;
+  return finish_locally(result, options, report);
 }
 
 } // namespace weft
