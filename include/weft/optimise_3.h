@@ -58,9 +58,30 @@ void require_structure(const Tetrahedral_mesh_3<K>& mesh)
   throw Domain_error(fault.text + "; assemble_mesh_3() makes a mesh of points and cells", fault.vertices, {});
 }
 
+/// Checks what is given, has `improve(report)` improve the mesh, and measures it before and after.
+template <class K, class Improve>
+Improve_result_3<K> improve_and_report(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options,
+                                       const Improve& improve)
+{
+  options.check();
+  require_structure(mesh);
+  for (const std::size_t v : options.fixed_vertices)
+    if (v >= mesh.points.size()) throw Option_error("there is no vertex " + std::to_string(v) + " to be fixed");
+  Improve_result_3<K> result;
+  result.report.before = measure_quality_3(mesh);
+  result.report.inverted_before = count_inverted(mesh);
+  result.mesh = improve(result.report);
+  result.report.manifold = !result.mesh.cells.empty() && check_manifold_3(result.mesh).ok();
+  result.report.after = measure_quality_3(result.mesh);
+  result.report.inverted_after = count_inverted(result.mesh);
+  return result;
+}
+
 } // namespace internal
 
 /// Improves a mesh.
+///
+/// Vertices of the boundary come first in the result where it slides; with a fixed boundary vertices keep their order.
 /// \param mesh from a reader, `from_c3t3()` or `assemble_mesh_3()`; cells may be slivers, not Delaunay, or inverted.
 /// \throws Option_error for options out of range; Domain_error if the arrays aren't a mesh, or if the boundary is to
 ///   slide and isn't a closed surface without self-intersections.
@@ -68,20 +89,23 @@ template <class K>
 Improve_result_3<K> optimise_3(const Tetrahedral_mesh_3<K>& mesh,
                                const Improve_options_3& options = Improve_options_3())
 {
-  options.check();
-  internal::require_structure(mesh);
-  for (const std::size_t v : options.fixed_vertices)
-    if (v >= mesh.points.size()) throw Option_error("there is no vertex " + std::to_string(v) + " to be fixed");
-  Improve_result_3<K> result;
-  result.report.before = measure_quality_3(mesh);
-  result.report.inverted_before = internal::count_inverted(mesh);
-  const bool slides = options.boundary == Boundary_3::slide;
-  result.mesh =
-      slides ? improve_sliding_3(mesh, options, result.report) : improve_fixed_3(mesh, options, result.report);
-  if (!slides) result.report.manifold = check_manifold_3(result.mesh).ok();
-  result.report.after = measure_quality_3(result.mesh);
-  result.report.inverted_after = internal::count_inverted(result.mesh);
-  return result;
+  return internal::improve_and_report(mesh, options, [&](Improve_report_3& report) {
+    return options.boundary == Boundary_3::slide ? improve_sliding_3(mesh, options, report)
+                                                 : improve_fixed_3(mesh, options, report);
+  });
+}
+
+/// Improves a mesh of a domain that is known better than by the mesh itself: its boundary slides on the surface of
+/// that. Sharp edges are those of the domain; `sharp_angle` and `tagged_features` don't matter. \param oracle a domain
+/// oracle, see Polyhedral_oracle_3.h. Patches, creases and corners of the result are its own. \throws Option_error as
+/// above, and if the boundary is to stay fixed; Domain_error as above.
+template <class K, class Oracle>
+Improve_result_3<K> optimise_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle,
+                               const Improve_options_3& options)
+{
+  if (options.boundary == Boundary_3::fixed) throw Option_error("a fixed boundary needs no domain");
+  return internal::improve_and_report(
+      mesh, options, [&](Improve_report_3& report) { return improve_on_domain_3(mesh, oracle, options, report); });
 }
 
 } // namespace weft

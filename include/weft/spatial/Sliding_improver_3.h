@@ -19,6 +19,7 @@
 #include <weft/spatial/Polyhedral_oracle_3.h>
 #include <weft/spatial/Spatial_mesher_3.h>
 #include <weft/spatial/Tetrahedral_mesh_3.h>
+#include <weft/spatial/validate_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
@@ -29,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -202,6 +204,62 @@ private:
   bool names_are_unique_ = true; ///< whether every patch of the complex has one name
 };
 
+/// The vertices of a mesh on the parts of a domain.
+template <class K, class Oracle>
+class Vertices_on_domain_3
+{
+public:
+  using Point = typename K::Point_3;
+
+  Vertices_on_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle, const Boundary_sizing_3<K>& sizing,
+                       const Improve_options_3& options)
+      : oracle_(oracle)
+  {
+    std::vector<char> is_on_boundary(mesh.points.size(), false), is_fixed(mesh.points.size(), false);
+    for (const auto& facet : mesh.facets)
+      for (const std::size_t v : facet) is_on_boundary[v] = true;
+    for (const std::size_t v : options.fixed_vertices) is_fixed[v] = true;
+    for (std::size_t i = 0; i < oracle.number_of_corners(); ++i) add(oracle.corner(i), {0, static_cast<int>(i)});
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      const Point& p = mesh.points[v];
+      if (is_fixed[v] && taken_.count(p) == 0) initial_.fixed.push_back(initial_.points.size());
+      if (is_on_boundary[v])
+        add_on_surface(p, near * sizing(p), is_fixed[v]);
+      else if (is_fixed[v] || oracle.subdomain(p) != 0)
+        add(p, {3, 1});
+    }
+  }
+
+  const Initial_vertices_3<K>& initial() const { return initial_; }
+
+private:
+  static constexpr double near = 1e-3; ///< in parts of the length of edges nearby: on a crease or feature vertex
+
+  void add(const Point& p, const Vertex_location_3& at)
+  {
+    if (!taken_.insert(p).second) return;
+    initial_.points.push_back(p);
+    initial_.locations.push_back(at);
+  }
+
+  void add_on_surface(const Point& p, double tolerance, bool stays)
+  {
+    const auto is_near = [&](const Point& q) { return CGAL::squared_distance(p, q) <= tolerance * tolerance; };
+    for (std::size_t i = 0; i < oracle_.number_of_corners(); ++i)
+      if (is_near(oracle_.corner(i))) return;
+    for (std::size_t c = 0; c < oracle_.number_of_creases(); ++c) {
+      const Point q = oracle_.project_on_crease(p, static_cast<int>(c));
+      if (is_near(q)) return add(stays ? p : q, {1, static_cast<int>(c)});
+    }
+    const auto hit = oracle_.closest(p);
+    add(stays ? p : hit.point, {2, hit.patch});
+  }
+
+  const Oracle& oracle_;
+  Initial_vertices_3<K> initial_;
+  std::set<Point> taken_;
+};
+
 } // namespace internal
 
 /// Local changes inside, after the boundary has slid to where it is good.
@@ -222,7 +280,48 @@ Tetrahedral_mesh_3<K> finish_locally(const Tetrahedral_mesh_3<K>& mesh, const Im
   return result;
 }
 
-/// Improves a mesh whose boundary slides on itself.
+namespace internal {
+
+/// V - E + F and the number of connected components of a triangle surface.
+inline std::array<long, 2> topology_of_facets(const std::vector<std::array<std::size_t, 3>>& facets)
+{
+  std::vector<std::array<std::size_t, 2>> edges, links;
+  std::vector<std::size_t> vertices;
+  for (const auto& f : facets)
+    for (std::size_t i = 0; i < 3; ++i) {
+      edges.push_back(sorted<2>({f[i], f[(i + 1) % 3]}));
+      vertices.push_back(f[i]);
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return {static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) + static_cast<long>(facets.size()),
+          static_cast<long>(number_of_components(edges))};
+}
+
+/// Meshes a domain beginning with vertices that there are.
+template <class Oracle, class K>
+Tetrahedral_mesh_3<K> mesh_from_vertices(const Oracle& oracle, const Initial_vertices_3<K>& initial,
+                                         const Tetrahedral_mesh_3<K>& mesh, const Boundary_sizing_3<K>& sizing,
+                                         const Improve_options_3& options, Improve_report_3& report)
+{
+  const Criteria_3<K> criteria = criteria_of_mesh(mesh, sizing, options);
+  const Mesh_options_3 mesher_options = internal::mesher_options(options, 0.1 * sizing.shortest_edge());
+  Spatial_mesher_3<Oracle> mesher(oracle, criteria, mesher_options, initial);
+  take_report(mesher.run(), report);
+  return tetrahedral_mesh(mesher.mesh());
+}
+
+inline bool ended_early(const Improve_report_3& report)
+{
+  return report.stop_reason == Stop_reason::cancelled || report.stop_reason == Stop_reason::time_limit;
+}
+
+} // namespace internal
+
+/// Improves a mesh whose boundary slides on itself. Where the boundary can't be had as one of a Delaunay mesh with
+/// about its own vertices, because it folds too sharply for them, it stays fixed, and the report's notes say so.
 template <class K>
 Tetrahedral_mesh_3<K> improve_sliding_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options,
                                         Improve_report_3& report)
@@ -230,16 +329,38 @@ Tetrahedral_mesh_3<K> improve_sliding_3(const Tetrahedral_mesh_3<K>& mesh, const
   const internal::Mesh_boundary_3<K> boundary(mesh, options);
   for (const auto& change : boundary.complex().changes) report.notes.push_back(change);
   const Boundary_sizing_3<K> sizing(boundary.complex().points, boundary.complex().triangles);
-  const Criteria_3<K> criteria = internal::criteria_of_mesh(mesh, sizing, options);
   const Polyhedral_oracle_3<K> oracle(boundary.complex());
   const Initial_vertices_3<K> initial{mesh.points, boundary.locations(), options.fixed_vertices};
-  const Mesh_options_3 mesher_options = internal::mesher_options(options, 0.1 * sizing.shortest_edge());
-  Spatial_mesher_3<Polyhedral_oracle_3<K>> mesher(oracle, criteria, mesher_options, initial);
-  internal::take_report(mesher.run(), report);
-  auto result = tetrahedral_mesh(mesher.mesh());
+  auto result = internal::mesh_from_vertices(oracle, initial, mesh, sizing, options, report);
   boundary.restore_names(sizing, result);
-  if (options.delaunay || report.stop_reason == Stop_reason::cancelled || report.stop_reason == Stop_reason::time_limit)
+  const bool is_represented =
+      report.manifold && internal::topology_of_facets(result.facets) == internal::topology_of_facets(mesh.facets);
+  if (!is_represented) {
+    report.moves = report.insertions = report.removals = report.unrepresented = 0;
+    if (!internal::ended_early(report)) report.stop_reason = Stop_reason::criteria_met;
+    report.notes.emplace_back(
+        internal::ended_early(report)
+            ? "stopped before the boundary was represented: the mesh is as it was"
+            : "the boundary can't be that of a Delaunay mesh with these vertices: it stays fixed");
+    if (internal::ended_early(report)) return mesh;
+    result = mesh;
+  } else if (options.delaunay || internal::ended_early(report)) {
     return result;
+  }
+  return finish_locally(result, options, report);
+}
+
+/// Improves a mesh of a given domain, on whose surface the boundary slides. Vertices of the boundary go to the nearest
+/// point of the surface, those as good as on a crease or feature vertex to that.
+/// \param oracle a domain oracle, see Polyhedral_oracle_3.h; patches, creases and corners of the result are its own.
+template <class K, class Oracle>
+Tetrahedral_mesh_3<K> improve_on_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle,
+                                          const Improve_options_3& options, Improve_report_3& report)
+{
+  const Boundary_sizing_3<K> sizing(mesh.points, mesh.facets);
+  const internal::Vertices_on_domain_3<K, Oracle> vertices(mesh, oracle, sizing, options);
+  auto result = internal::mesh_from_vertices(oracle, vertices.initial(), mesh, sizing, options, report);
+  if (options.delaunay || internal::ended_early(report) || result.cells.empty()) return result;
   return finish_locally(result, options, report);
 }
 

@@ -71,6 +71,7 @@ public:
     begin_stage("surface", Stage::refinement);
     go_on = go_on && refine_surface();
     begin_stage("lattice", Stage::seeding);
+    if (go_on && initial_) insert_interior();
     if (go_on && !initial_ && options_.lattice && criteria_.size.is_constant()) insert_lattice();
     begin_stage("interior", Stage::refinement);
     go_on = go_on && refine(1, true);
@@ -89,11 +90,37 @@ public:
   Restricted take_mesh() { return std::move(mesh_); }
 
 private:
+  /// Vertices of the boundary and those that have to stay; the others follow when the surface is there.
   bool take_initial()
   {
-    mesh_.insert(initial_->points, initial_->locations);
-    for (const std::size_t i : initial_->fixed) mesh_.fix(mesh_.vertices()[i]);
+    std::vector<char> is_first(initial_->points.size(), false);
+    std::vector<Point> points;
+    std::vector<Vertex_location_3> locations;
+    for (const std::size_t i : initial_->fixed) is_first[i] = true;
+    for (std::size_t i = 0; i < is_first.size(); ++i) {
+      if (initial_->locations[i].dimension < 3) is_first[i] = true;
+      if (!is_first[i]) continue;
+      points.push_back(initial_->points[i]);
+      locations.push_back(initial_->locations[i]);
+    }
+    mesh_.insert(points, locations);
+    std::vector<std::size_t> number(is_first.size(), 0);
+    for (std::size_t i = 1; i < number.size(); ++i) number[i] = number[i - 1] + (is_first[i - 1] != 0);
+    for (const std::size_t i : initial_->fixed) mesh_.fix(mesh_.vertices()[number[i]]);
+    for (std::size_t i = 0; i < is_first.size(); ++i)
+      if (!is_first[i]) interior_.push_back(initial_->points[i]);
     return visit(0) || stop(Stop_reason::cancelled);
+  }
+
+  /// Those interior vertices that don't end up on the boundary. Otherwise refinement has to surround them with vertices
+  /// on the surface: 5000 instead of 2900 on the elephant as Netgen leaves it unoptimised.
+  void insert_interior()
+  {
+    const std::size_t before = interior_.size();
+    const double spacing = 0.1 * criteria_.size(Point(0, 0, 0));
+    drop_encroaching(mesh_, spacing, 0, interior_);
+    report_.coarsened += before - interior_.size();
+    mesh_.insert(interior_, std::vector<Vertex_location_3>(interior_.size(), {3, 1}));
   }
 
   bool seed()
@@ -344,6 +371,7 @@ private:
   const Criteria_3<Kernel>& criteria_;
   const Mesh_options_3& options_;
   const Initial_vertices_3<Kernel>* initial_ = nullptr;
+  std::vector<Point> interior_; ///< of the initial vertices, those to be inserted later
   Restricted mesh_;
   std::optional<Criteria_guard_3<Restricted>> guard_; ///< from when refinement has ended
   Mesh_report_3 report_;
