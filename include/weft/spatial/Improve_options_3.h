@@ -81,8 +81,8 @@ struct Improve_report_3
   /// Elements of the boundary that could not be brought to represent that of the input as asked: where angles are too
   /// acute for a Delaunay mesh. 0 for fixed boundaries.
   std::size_t unrepresented = 0;
-  /// Smallest dihedral angle that two boundary facets leave at an edge with one cell only, or 180: no mesh with this
-  /// boundary and no vertex on that edge can have more. In degrees; only for fixed boundaries.
+  /// The largest smallest dihedral angle that the worst boundary or interface facet allows a cell on it, in degrees: no
+  /// mesh that keeps it is better. 180 where the boundary slides.
   double boundary_bound = 180;
   std::size_t moves = 0, insertions = 0, removals = 0, flips = 0; ///< of vertices, and changes of connectivity
   Stop_reason stop_reason = Stop_reason::criteria_met;

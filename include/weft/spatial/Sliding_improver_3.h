@@ -264,10 +264,15 @@ private:
 
 /// Local changes inside, after the boundary has slid to where it is good.
 template <class K>
-Tetrahedral_mesh_3<K> finish_locally(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options,
-                                     Improve_report_3& report)
+Tetrahedral_mesh_3<K> finish_locally(const Tetrahedral_mesh_3<K>& mesh, const Tetrahedral_mesh_3<K>& input,
+                                     const Improve_options_3& options, Improve_report_3& report)
 {
   Improve_options_3 rest = options;
+  std::set<typename K::Point_3> fixed; // vertices are numbered anew
+  for (const std::size_t v : options.fixed_vertices) fixed.insert(input.points[v]);
+  rest.fixed_vertices.clear();
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (fixed.count(mesh.points[v]) > 0) rest.fixed_vertices.push_back(v);
   for (const auto& stage : report.stage_seconds) rest.time_limit = (std::max)(0.0, rest.time_limit - stage.second);
   Improve_report_3 local;
   auto result = improve_fixed_3(mesh, rest, local);
@@ -347,7 +352,7 @@ Tetrahedral_mesh_3<K> improve_sliding_3(const Tetrahedral_mesh_3<K>& mesh, const
   } else if (options.delaunay || internal::ended_early(report)) {
     return result;
   }
-  return finish_locally(result, options, report);
+  return finish_locally(result, mesh, options, report);
 }
 
 /// Improves a mesh of a given domain, on whose surface the boundary slides. Vertices of the boundary go to the nearest
@@ -361,7 +366,7 @@ Tetrahedral_mesh_3<K> improve_on_domain_3(const Tetrahedral_mesh_3<K>& mesh, con
   const internal::Vertices_on_domain_3<K, Oracle> vertices(mesh, oracle, sizing, options);
   auto result = internal::mesh_from_vertices(oracle, vertices.initial(), mesh, sizing, options, report);
   if (options.delaunay || internal::ended_early(report) || result.cells.empty()) return result;
-  return finish_locally(result, options, report);
+  return finish_locally(result, mesh, options, report);
 }
 
 } // namespace weft

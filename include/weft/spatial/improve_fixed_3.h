@@ -72,7 +72,7 @@ public:
 private:
   using Bad_cell = std::pair<double, int>; ///< quality, number
 
-  static constexpr int most_idle = 6, plain_passes = 3;
+  static constexpr int most_idle = 3, plain_passes = 3;
   static constexpr std::size_t worst_few = 30;
 
   /// How bad the cells below the target are altogether.
@@ -82,7 +82,7 @@ private:
 
     bool is_clearly_better_than(const Standing& other) const
     {
-      return worst > other.worst + 1e-3 * std::abs(other.worst) || sum < 0.99 * other.sum;
+      return worst > other.worst + 0.01 * std::abs(other.worst) || sum < 0.97 * other.sum;
     }
   };
 
@@ -134,7 +134,7 @@ private:
       if (!mesh_.cell(c).is_alive || operations_.quality(c) >= target_) continue;
       mesh_.begin();
       if (improve(c, true) || effort == 0) continue;
-      const int trials = effort * (done <= worst_few ? 24 : 4);
+      const int trials = effort * (done <= worst_few ? 24 : 2);
       for (int trial = 0; trial < trials && mesh_.cell(c).is_alive; ++trial)
         if (shake(c, trial)) break;
     }
@@ -258,31 +258,62 @@ private:
   Stop_reason stop_reason_ = Stop_reason::criteria_met;
 };
 
-/// The largest smallest dihedral angle that a cell with a given facet can have, over all facets that have to stay, and
-/// of the angles between such facets, in degrees: no mesh with these facets has more.
+namespace internal {
+
+/// The largest smallest dihedral angle that a cell on a facet can have, as a quality: the best of local optima that
+/// apexes all around lead to.
+template <class K>
+double best_quality_on_facet(const std::array<typename K::Point_3, 3>& f)
+{
+  using Optimiser = Star_optimiser_3<K>;
+  const std::vector<typename Optimiser::Facet> star = {f};
+  const auto normal = CGAL::normal(f[0], f[1], f[2]);
+  const double area = std::sqrt(CGAL::to_double(normal.squared_length()));
+  if (!(area > 0)) return 0;
+  std::vector<std::pair<double, typename K::Point_3>> starts;
+  for (int i = -2; i <= 6; ++i)
+    for (int j = -2; i + j <= 6; ++j)
+      for (const double height : {0.15, 0.4, 0.8, 1.6, 4.0}) {
+        const auto apex = f[0] + i / 4. * (f[1] - f[0]) + j / 4. * (f[2] - f[0]) - height / std::sqrt(area) * normal;
+        starts.emplace_back(-Optimiser::quality(apex, star), apex);
+      }
+  std::sort(starts.begin(), starts.end());
+  double best = 0;
+  Optimiser optimiser;
+  for (std::size_t k = 0; k < 6; ++k) {
+    auto apex = starts[k].second;
+    for (int round = 0; round < 4; ++round) best = (std::max)(best, optimiser.optimise(apex, star));
+  }
+  return best;
+}
+
+} // namespace internal
+
+/// What facets that have to stay allow: the least over them of the largest smallest dihedral angle that a cell on one
+/// of them can have, in degrees. No mesh with these facets is better, up to how well those optima are found; it may be
+/// that none is as good. Looks at the facets with the smallest angles only.
 template <class K>
 double fixed_facets_bound_3(const Editable_mesh_3<K>& mesh)
 {
   using Mesh = Editable_mesh_3<K>;
-  using Optimiser = Star_optimiser_3<K>;
-  double bound = 180;
-  Optimiser optimiser;
+  using Facet = std::array<typename K::Point_3, 3>;
+  std::vector<std::pair<double, Facet>> facets;
   for (int c = 0; c < mesh.number_of_cells(); ++c)
     for (int i = 0; i < 4 && mesh.cell(c).is_alive; ++i) {
       if (mesh.neighbour(c, i) != Mesh::none) continue;
-      const auto f = mesh.facet(c, i);
-      const std::vector<typename Optimiser::Facet> star = {{mesh.point(f[0]), mesh.point(f[1]), mesh.point(f[2])}};
-      const auto middle = CGAL::centroid(star[0][0], star[0][1], star[0][2]);
-      const auto normal = CGAL::normal(star[0][0], star[0][1], star[0][2]);
-      const double area = std::sqrt(CGAL::to_double(normal.squared_length()));
-      if (!(area > 0)) return 0;
-      double best = 0;
-      for (const double height : {0.3, 0.8, 2.0}) {
-        auto apex = middle - height / std::sqrt(area) * normal;
-        best = (std::max)(best, optimiser.optimise(apex, star));
-      }
-      bound = (std::min)(bound, angle_of_quality_3(best));
+      const auto v = mesh.facet(c, i);
+      const Facet f = {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])};
+      double smallest = 180;
+      for (std::size_t k = 0; k < 3; ++k)
+        smallest = (std::min)(smallest, CGAL::approximate_angle(f[(k + 1) % 3], f[k], f[(k + 2) % 3]));
+      facets.emplace_back(smallest, f);
     }
+  constexpr std::size_t most = 100;
+  const std::size_t n = (std::min)(most, facets.size());
+  std::partial_sort(facets.begin(), facets.begin() + static_cast<std::ptrdiff_t>(n), facets.end());
+  double bound = 180;
+  for (std::size_t k = 0; k < n; ++k)
+    bound = (std::min)(bound, angle_of_quality_3(internal::best_quality_on_facet<K>(facets[k].second)));
   return bound;
 }
 

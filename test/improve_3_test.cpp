@@ -1,0 +1,402 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Properties of improving tetrahedral meshes that there are: what slides stays on the surface, what is fixed stays to
+// the last bit, nothing gets worse, slivers and inverted cells go.
+
+#include "spatial_fixtures.h"
+
+#include <weft/optimise_3.h>
+#include <weft/spatial/assemble_mesh_3.h>
+#include <weft/spatial/validate_3.h>
+
+#include <catch2/catch.hpp>
+
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using fixtures::K;
+using fixtures::Mesh;
+using fixtures::Point;
+using Options = weft::Improve_options_3;
+using weft::Boundary_3;
+
+Options fixed()
+{
+  Options options;
+  options.boundary = Boundary_3::fixed;
+  options.min_dihedral_angle = 12; // random boundaries allow little
+  return options;
+}
+
+/// A ball full of slivers whose interior vertices are at random.
+Mesh ball(unsigned seed = 1)
+{
+  return fixtures::ball(500, 500, seed).mesh;
+}
+
+/// Every second interior vertex of a box moved far enough to turn cells over.
+Mesh tangled_box()
+{
+  Mesh mesh = fixtures::box(4).mesh;
+  std::mt19937 random(5);
+  const auto shift = [&random] { return 1.6 * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const double x = shift(), y = shift(), z = shift();
+    const Point& p = mesh.points[v];
+    if (mesh.locations[v].dimension == 3) mesh.points[v] = Point(p.x() + x, p.y() + y, p.z() + z);
+  }
+  return mesh;
+}
+
+using Facet_set = std::set<std::pair<std::vector<Point>, int>>;
+
+/// The facets by coordinates, beginning with the least corner, in their sense, and their patches.
+Facet_set facets_of(const Mesh& mesh)
+{
+  Facet_set result;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    std::vector<Point> points;
+    for (const std::size_t v : mesh.facets[f]) points.push_back(mesh.points[v]);
+    std::rotate(points.begin(), std::min_element(points.begin(), points.end()), points.end());
+    result.emplace(points, mesh.patches[f]);
+  }
+  return result;
+}
+
+double volume_of(const Mesh& mesh, int subdomain)
+{
+  double sum = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const auto& v = mesh.cells[c];
+    if (mesh.subdomains[c] == subdomain)
+      sum += CGAL::volume(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]);
+  }
+  return sum;
+}
+
+bool same(const Mesh& a, const Mesh& b)
+{
+  return a.points == b.points && a.cells == b.cells && a.facets == b.facets && a.patches == b.patches &&
+         a.edges == b.edges && a.locations == b.locations;
+}
+
+/// Everything but the Delaunay property.
+void check_valid(const Mesh& mesh)
+{
+  weft::Validity_3 validity = weft::check_structure_3(mesh);
+  validity += weft::check_orientation_3(mesh);
+  validity += weft::check_boundary_3(mesh);
+  validity += weft::check_manifold_3(mesh);
+  validity += weft::check_locations_3(mesh);
+  CAPTURE(validity);
+  CHECK(validity.ok());
+}
+
+/// Distance of a point from the facets of a mesh.
+double distance_from(const Mesh& mesh, const Point& p)
+{
+  double nearest = HUGE_VAL;
+  for (const auto& f : mesh.facets)
+    nearest = std::min(
+        nearest, CGAL::squared_distance(p, K::Triangle_3(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]])));
+  return std::sqrt(nearest);
+}
+
+} // namespace
+
+// ---- boundaries that slide
+
+TEST_CASE("a ball full of slivers becomes a good mesh whose boundary vertices lie on the surface it had")
+{
+  const Mesh mesh = ball();
+  for (const bool delaunay : {false, true}) {
+    Options options;
+    options.delaunay = delaunay;
+    options.min_dihedral_angle = 18;
+    const auto [result, report] = weft::optimise_3(mesh, options);
+    CAPTURE(delaunay, report);
+    CHECK(report.before.smallest_dihedral.degrees < 2);
+    CHECK(report.after.smallest_dihedral.degrees >= 18);
+    CHECK(report.ok());
+    CHECK(report.notes.empty());
+    check_valid(result);
+    if (delaunay) CHECK(weft::check_delaunay_3(result).ok());
+    for (std::size_t v = 0; v < result.points.size(); ++v)
+      if (result.locations[v].dimension == 2) CHECK(distance_from(mesh, result.points[v]) < 1e-9);
+    CHECK(report.after.volume == Approx(report.before.volume).epsilon(0.03));
+    CHECK(result.points.size() < 1.1 * mesh.points.size());
+    CHECK(result.points.size() > 0.8 * mesh.points.size());
+  }
+}
+
+TEST_CASE("patches, creases and corners keep their names, and sharp edges found by angle get new ones")
+{
+  Mesh mesh = fixtures::box(3).mesh;
+  for (int& patch : mesh.patches) patch += 10;
+  for (auto& at : mesh.locations)
+    if (at.dimension == 2) at.index += 10;
+  for (int& s : mesh.subdomains) s = 4;
+  for (auto& at : mesh.locations)
+    if (at.dimension == 3) at.index = 4;
+  const auto [result, report] = weft::optimise_3(mesh);
+  CAPTURE(report);
+  check_valid(result);
+  CHECK(std::set<int>(result.patches.begin(), result.patches.end()) ==
+        std::set<int>(mesh.patches.begin(), mesh.patches.end()));
+  CHECK(std::set<int>(result.creases.begin(), result.creases.end()) ==
+        std::set<int>(mesh.creases.begin(), mesh.creases.end()));
+  CHECK(std::set<int>(result.subdomains.begin(), result.subdomains.end()) == std::set<int>{4});
+  CHECK(result.corners.size() == 8);
+  CHECK(report.after.volume == Approx(27));
+  const auto bare = weft::assemble_mesh_3(mesh.points, mesh.cells).mesh; // no tags at all
+  CHECK(bare.edges.empty());
+  const auto found = weft::optimise_3(bare).mesh;
+  CHECK(found.corners.size() == 8);
+  CHECK(std::set<int>(found.creases.begin(), found.creases.end()).size() == 12);
+  CHECK(std::set<int>(found.patches.begin(), found.patches.end()) == std::set<int>{0});
+}
+
+TEST_CASE("a mesh is improved on a domain that is given")
+{
+  const Mesh mesh = fixtures::box(3).mesh;
+  const auto bare = weft::assemble_mesh_3(mesh.points, mesh.cells).mesh;
+  const weft::Polyhedral_oracle_3<K> oracle(
+      weft::piecewise_smooth_complex(mesh.points, mesh.facets, weft::Feature_options{60}));
+  const auto [result, report] = weft::optimise_3(bare, oracle, Options());
+  CAPTURE(report);
+  check_valid(result);
+  CHECK(report.ok());
+  CHECK(result.corners.size() == 8);
+  CHECK(std::set<int>(result.patches.begin(), result.patches.end()).size() == 6);
+  CHECK(report.after.volume == Approx(27));
+  CHECK_THROWS_AS(weft::optimise_3(bare, oracle, fixed()), weft::Option_error);
+}
+
+TEST_CASE("several subdomains can't slide, and keep their interfaces with a fixed boundary")
+{
+  const Mesh mesh = fixtures::box(4, true).mesh;
+  CHECK_THROWS_AS(weft::optimise_3(mesh), weft::Domain_error);
+  Mesh shaken = mesh;
+  for (std::size_t v = 0; v < shaken.points.size(); ++v)
+    if (shaken.locations[v].dimension == 3) {
+      const Point& p = shaken.points[v];
+      shaken.points[v] = Point(p.x() + 0.3, p.y() - 0.2, p.z() + 0.35);
+    }
+  Options options = fixed();
+  options.min_dihedral_angle = 25;
+  const auto [result, report] = weft::optimise_3(shaken, options);
+  CAPTURE(report);
+  CHECK(facets_of(result) == facets_of(mesh));
+  CHECK(volume_of(result, 1) == Approx(32));
+  CHECK(volume_of(result, 2) == Approx(32));
+  CHECK(report.after.smallest_dihedral.degrees > report.before.smallest_dihedral.degrees);
+  check_valid(result);
+}
+
+// ---- fixed boundaries
+
+TEST_CASE("with a fixed boundary every facet stays to the last bit and the worst angle rises")
+{
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Mesh mesh = ball(seed);
+    const auto [result, report] = weft::optimise_3(mesh, fixed());
+    CAPTURE(seed, report);
+    CHECK(facets_of(result) == facets_of(mesh));
+    CHECK(report.after.smallest_dihedral.degrees > report.before.smallest_dihedral.degrees);
+    CHECK(report.after.cells_below(10) < report.before.cells_below(10) / 5);
+    CHECK(report.after.smallest_dihedral.degrees <= report.boundary_bound);
+    CHECK(report.after.volume == Approx(report.before.volume));
+    check_valid(result);
+  }
+}
+
+TEST_CASE("inverted cells are turned over")
+{
+  const Mesh mesh = tangled_box();
+  const auto [result, report] = weft::optimise_3(mesh, fixed());
+  CAPTURE(report);
+  CHECK(report.inverted_before > 20);
+  CHECK(report.inverted_after == 0);
+  CHECK(report.after.smallest_dihedral.degrees >= 12);
+  CHECK(facets_of(result) == facets_of(mesh));
+  check_valid(result);
+  const auto slid = weft::optimise_3(mesh);
+  CHECK(slid.report.inverted_after == 0);
+  check_valid(slid.mesh);
+}
+
+TEST_CASE("fixed vertices stay where they are, whatever else moves")
+{
+  const Mesh mesh = ball(2);
+  for (const bool slides : {true, false}) {
+    Options options;
+    options.boundary = slides ? Boundary_3::slide : Boundary_3::fixed;
+    options.min_dihedral_angle = 8;
+    for (std::size_t v = 0; v < mesh.points.size(); v += 7) options.fixed_vertices.push_back(v);
+    const auto [result, report] = weft::optimise_3(mesh, options);
+    const std::set<Point> points(result.points.begin(), result.points.end());
+    std::size_t missing = 0;
+    for (const std::size_t v : options.fixed_vertices) missing += points.count(mesh.points[v]) == 0;
+    CAPTURE(slides, report);
+    CHECK(missing == 0);
+    check_valid(result);
+    CHECK(report.after.cells_below(5) < report.before.cells_below(5));
+    options.delaunay = true;
+    if (!slides) continue;
+    const auto perturbed = weft::optimise_3(mesh, options).mesh;
+    const std::set<Point> left(perturbed.points.begin(), perturbed.points.end());
+    for (const std::size_t v : options.fixed_vertices) CHECK(left.count(mesh.points[v]) == 1);
+  }
+}
+
+// ---- both
+
+TEST_CASE("the same input gives the same mesh, whatever the number of threads")
+{
+  const Mesh mesh = ball(3);
+  for (const Boundary_3 boundary : {Boundary_3::slide, Boundary_3::fixed}) {
+    Options options;
+    options.boundary = boundary;
+    options.min_dihedral_angle = 12;
+    const auto first = weft::optimise_3(mesh, options).mesh;
+    options.threads = 3;
+    CHECK(same(first, weft::optimise_3(mesh, options).mesh));
+  }
+}
+
+TEST_CASE("a run that is stopped at any time leaves a valid mesh")
+{
+  const Mesh mesh = ball(4);
+  for (const Boundary_3 boundary : {Boundary_3::slide, Boundary_3::fixed})
+    for (int calls : {0, 1, 2, 4, 8, 16}) {
+      Options options;
+      options.boundary = boundary;
+      options.min_dihedral_angle = 12;
+      options.visitor = [&calls](const weft::Progress&) { return calls-- > 0; };
+      const auto [result, report] = weft::optimise_3(mesh, options);
+      CHECK((report.stop_reason == weft::Stop_reason::cancelled || calls >= 0));
+      check_valid(result);
+    }
+}
+
+TEST_CASE("options out of range and arrays that aren't a mesh are refused")
+{
+  const Mesh mesh = ball();
+  Options options;
+  options.min_dihedral_angle = 91;
+  CHECK_THROWS_AS(weft::optimise_3(mesh, options), weft::Option_error);
+  options = fixed();
+  options.fixed_vertices = {mesh.points.size()};
+  CHECK_THROWS_AS(weft::optimise_3(mesh, options), weft::Option_error);
+  Mesh broken = mesh;
+  broken.cells[0][0] = broken.cells[0][1];
+  CHECK_THROWS_AS(weft::optimise_3(broken), weft::Domain_error);
+  broken = mesh;
+  broken.facets.pop_back();
+  broken.patches.pop_back();
+  CHECK_THROWS_AS(weft::optimise_3(broken, fixed()), weft::Domain_error);
+}
+
+// ---- local changes
+
+namespace {
+
+using Editable = weft::Editable_mesh_3<K>;
+using Operations = weft::Local_operations_3<K>;
+
+double worst_of(const Editable& mesh, const Operations& operations)
+{
+  double worst = HUGE_VAL;
+  for (int c = 0; c < mesh.number_of_cells(); ++c)
+    if (mesh.cell(c).is_alive) worst = std::min(worst, operations.quality(c));
+  return worst;
+}
+
+/// One change of any kind at a cell, if it helps.
+bool change(Operations& operations, const Editable& mesh, int c, unsigned kind)
+{
+  const auto v = mesh.cell(c).vertices;
+  switch (kind % 5) {
+  case 0:
+    return operations.smooth(v[kind / 5 % 4]);
+  case 1:
+    return operations.remove_edge(c, v[kind / 5 % 4], v[(kind / 5 + 1) % 4]);
+  case 2:
+    return operations.remove_facets(c, static_cast<int>(kind / 5 % 4));
+  case 3:
+    return operations.remove_vertex(v[kind / 5 % 4]);
+  default:
+    return operations.insert_vertex(
+        c, CGAL::centroid(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])));
+  }
+}
+
+} // namespace
+
+TEST_CASE("local changes climb: each of them raises the worst cell it touches, and all are made somewhere")
+{
+  const Mesh input = ball(5);
+  Editable mesh(input, {});
+  Operations operations(mesh);
+  std::mt19937 random(7);
+  double worst = worst_of(mesh, operations);
+  for (int k = 0; k < 3000; ++k) {
+    const int c = static_cast<int>(random() % static_cast<unsigned>(mesh.number_of_cells()));
+    if (!mesh.cell(c).is_alive) continue;
+    mesh.begin();
+    if (!change(operations, mesh, c, static_cast<unsigned>(random()))) continue;
+    const double now = worst_of(mesh, operations);
+    REQUIRE(now >= worst);
+    worst = now;
+  }
+  const auto& counts = operations.counts();
+  CHECK(counts.moves > 20);
+  CHECK(counts.edge_removals > 20);
+  CHECK(counts.facet_removals > 20);
+  CHECK(counts.contractions > 5);
+  CHECK(counts.insertions > 5);
+  const Mesh result = mesh.mesh(input);
+  check_valid(result);
+  CHECK(facets_of(result) == facets_of(input));
+  CHECK(volume_of(result, 1) == Approx(volume_of(input, 1)));
+}
+
+TEST_CASE("local changes can be undone, all or the last of them")
+{
+  const Mesh input = ball(6);
+  Editable mesh(input, {});
+  Operations operations(mesh);
+  std::mt19937 random(8);
+  for (int round = 0; round < 30; ++round) {
+    const Mesh before = mesh.mesh(input);
+    mesh.begin();
+    for (int k = 0; k < 40; ++k) {
+      const int c = static_cast<int>(random() % static_cast<unsigned>(mesh.number_of_cells()));
+      if (mesh.cell(c).is_alive) change(operations, mesh, c, static_cast<unsigned>(random()));
+    }
+    mesh.undo();
+    REQUIRE(same(mesh.mesh(input), before));
+    for (int c = 0; c < mesh.number_of_cells(); ++c)
+      for (int i = 0; i < 4 && mesh.cell(c).is_alive; ++i) {
+        const int n = mesh.cell(c).neighbours[static_cast<std::size_t>(i)];
+        REQUIRE((n == Editable::none || mesh.cell(n).is_alive));
+      }
+    for (int k = 0; k < 20; ++k) { // something stays
+      const int c = static_cast<int>(random() % static_cast<unsigned>(mesh.number_of_cells()));
+      if (mesh.cell(c).is_alive) change(operations, mesh, c, static_cast<unsigned>(random()));
+    }
+    if (round % 10 == 9) mesh.compact();
+  }
+  check_valid(mesh.mesh(input));
+}
