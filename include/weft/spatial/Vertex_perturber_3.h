@@ -292,9 +292,9 @@ private:
   // ---- places
 
   /// As in Alg. 7 the gradients have their turn before chance, but only those steps that have mended more for their
-  /// cost than chance has, the best first: near creases and late in a run gradients rarely help. Random
-  /// directions alone take 1.1 times as long to 20 degrees on elephant, dino and anchor (sum of four seeds); with two
-  /// steps along each gradient always, 0.7 to 1.05 times.
+  /// cost than chance has, the best first: near creases and late in a run gradients rarely help. To 20
+  /// degrees random directions alone take 0.9 to 1.15 times as long on elephant, dino and anchor (sums of four or five
+  /// seeds, two ways of smoothing); with two steps along each gradient always, 0.7 to 1.05 times.
   void find_places(const Point& origin, int trials, bool at_random)
   {
     places_.clear();
