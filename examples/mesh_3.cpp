@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The command-line program for spatial meshes: reads a closed surface, fills it with tetrahedra, writes the mesh, a
-// picture of its dihedral angles and figures. `mesh_3 --help` says how to call it.
+// The command-line program for spatial meshes: reads closed surfaces or a labelled image, fills them with tetrahedra,
+// writes the mesh, a picture of its dihedral angles and figures. `mesh_3 --help` says how to call it.
 
 #include "command_line.h"
 #include "meshing_progress.h"
 
+#include <weft/IO/read_label_image.h>
 #include <weft/IO/read_surface.h>
 #include <weft/IO/report_json_3.h>
 #include <weft/IO/svg_histogram.h>
 #include <weft/IO/write_mesh_3.h>
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/features_3.h>
+#include <weft/spatial/Label_image_3.h>
+#include <weft/spatial/merge_surfaces_3.h>
 #include <weft/spatial/Polyhedral_oracle_3.h>
 #include <weft/spatial/quality_3.h>
 #include <weft/spatial/repair_surface_3.h>
@@ -19,6 +22,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -48,14 +52,15 @@ enum Status
 // ---- What is asked for
 
 const std::string usage =
-    "usage: mesh_3 INPUT [--size S] [--approximation E] [--facet-shape R] [--cell-shape R] [--sharp-angle DEG]\n"
+    "usage: mesh_3 INPUT... [--size S] [--approximation E] [--facet-shape R] [--cell-shape R] [--sharp-angle DEG]\n"
     "              [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb] [--repair]\n"
     "              [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--quiet]\n";
 
 const std::vector<command_line::Option> known_options = {
     {"--size", "S", "longest edge (default 5%)"},
-    {"--approximation", "E", "distance of facets and crease edges to the surface, 0 for any (default 0.1%)"},
+    {"--approximation", "E",
+     "distance of facets and crease edges to the surface, 0 for any (default 0.1%; in images at least\n0.6 voxels)"},
     {"--facet-shape", "R", "largest circumradius / shortest edge of a boundary facet, from 1; 0 for any\n(default 2)"},
     {"--cell-shape", "R", "the same for cells (default 2)"},
     {"--sharp-angle", "DEG",
@@ -87,7 +92,11 @@ std::string help()
 {
   return usage +
          "\nFills the domain that a closed surface bounds with tetrahedra. INPUT is an .off, .obj, .stl or .ply file. "
-         "Lengths are\nin the input's units, or with a trailing % in parts of its bounding box diagonal.\n\n" +
+         "Several\nsurfaces bound a subdomain each, numbered from 1; what lies in several of them belongs to the last. "
+         "Or "
+         "INPUT is a\nlabelled image, .inr, .inr.gz or .hdr: each value but 0 is a subdomain. Lengths are in the "
+         "input's "
+         "units, or with a\ntrailing % in parts of its bounding box diagonal.\n\n" +
          command_line::describe(known_options) +
          "\nExit status: 0 if the mesh meets all criteria; 1 for bad usage or bad input, when no file is written; 2 if "
          "the run\nstopped early, by a limit or by Ctrl-C, or couldn't meet a criterion, when the valid mesh so far is "
@@ -96,7 +105,7 @@ std::string help()
 
 struct Request
 {
-  std::string input;
+  std::vector<std::string> inputs;
   command_line::Length size{5, true}, approximation{0.1, true};
   weft::Criteria_3<K> criteria; ///< without lengths, which need the input
   weft::Feature_options features;
@@ -104,7 +113,10 @@ struct Request
   double min_dihedral = 0;
   std::vector<std::string> outputs;
   std::string histogram, report;
-  bool repair = false, quiet = false;
+  bool repair = false, quiet = false, approximation_is_given = false;
+
+  /// For messages.
+  std::string name() const { return inputs.size() == 1 ? inputs.front() : inputs.front() + " and others"; }
 };
 
 /// Dihedral angle of regular tetrahedra, in degrees: no mesh has more, since they don't fill space.
@@ -121,6 +133,7 @@ double shape(const command_line::Arguments& arguments, const std::string& option
 void read_criteria(const command_line::Arguments& arguments, Request& request)
 {
   request.size = arguments.length("--size").value_or(request.size);
+  request.approximation_is_given = arguments.has("--approximation");
   request.approximation = arguments.length("--approximation", true).value_or(request.approximation);
   auto& criteria = request.criteria;
   criteria.facet_shape = shape(arguments, "--facet-shape", criteria.facet_shape);
@@ -155,8 +168,10 @@ void read_options(const command_line::Arguments& arguments, Request& request)
 void read_filenames(const command_line::Arguments& arguments, Request& request)
 {
   if (arguments.operands().empty()) throw Error("no input file; mesh_3 --help shows the usage");
-  if (arguments.operands().size() > 1) throw Error("more than one input file: '" + arguments.operands()[1] + "'");
-  request.input = arguments.operands().front();
+  request.inputs = arguments.operands();
+  const auto is_image = [](const std::string& name) { return weft::IO::is_label_image_filename(name); };
+  if (request.inputs.size() > 1 && std::any_of(request.inputs.begin(), request.inputs.end(), is_image))
+    throw Error("an image must be the only input file");
   request.outputs = arguments.values("--output");
   for (const std::string& filename : request.outputs)
     if (!weft::IO::is_mesh_3_filename(filename))
@@ -177,19 +192,20 @@ Request read_request(const command_line::Arguments& arguments)
 
 // ---- Input
 
-/// The domain that the input bounds; says what was changed in it.
+/// The domain that the input surfaces bound; says what was changed in them.
 Domain read_domain(const Request& request)
 {
-  const auto surface = weft::IO::read_surface<K>(request.input);
+  std::vector<weft::Polygon_soup_3<K>> surfaces;
+  for (const std::string& name : request.inputs) surfaces.push_back(weft::IO::read_surface<K>(name));
   try {
     using Repair = weft::Polygon_soup_3<K>::Repair;
-    auto complex = weft::piecewise_smooth_complex(surface, request.features,
+    auto complex = weft::piecewise_smooth_complex(surfaces, request.features,
                                                   request.repair ? Repair(weft::repair_surface<K>) : Repair());
     for (const std::string& change : complex.changes)
-      if (!request.quiet) command_line::complain("mesh_3", request.input + ": " + change);
+      if (!request.quiet) command_line::complain("mesh_3", request.name() + ": " + change);
     return Domain(std::move(complex));
   } catch (const weft::Domain_error& error) {
-    throw Error(request.input + ": " + error.what() + (request.repair ? "" : "; --repair tries to set it right"));
+    throw Error(request.name() + ": " + error.what() + (request.repair ? "" : "; --repair tries to set it right"));
   }
 }
 
@@ -206,7 +222,7 @@ void append_unsatisfied(std::string& text, const weft::Unsatisfied_3& bad, const
   if (bad.elements == 0) return;
   const unsigned reasons = (bad.size ? weft::bad_size : 0u) | (bad.approximation ? weft::bad_approximation : 0u) |
                            (bad.shape ? weft::bad_shape : 0u) | (bad.topology ? weft::bad_topology : 0u) |
-                           (bad.disk ? weft::bad_disk : 0u);
+                           (bad.disk ? weft::bad_disk : 0u) | (bad.demand ? weft::bad_demand : 0u);
   text += (text.empty() ? "" : ", ") + std::to_string(bad.elements) + " bad " + (bad.elements == 1 ? one : many) +
           " (" + weft::describe_reasons(reasons) +
           (bad.at_acute_edge ? "; " + std::to_string(bad.at_acute_edge) + " at acute edges of the input)" : ")");
@@ -240,7 +256,7 @@ void write_files(const Request& request, const Mesh& mesh, const weft::Mesh_repo
     files.add(request.report, [&](const std::string& name) { weft::IO::write_report_json(name, report, quality); });
   if (!request.histogram.empty())
     files.add(request.histogram, [&](const std::string& name) {
-      const std::string title = "Dihedral angles: " + std::filesystem::path(request.input).filename().string();
+      const std::string title = "Dihedral angles: " + std::filesystem::path(request.inputs.front()).filename().string();
       weft::IO::write_angle_histogram_svg(name, quality.histogram<weft::Angle_histogram>("weft"), title);
     });
   files.commit();
@@ -249,10 +265,11 @@ void write_files(const Request& request, const Mesh& mesh, const weft::Mesh_repo
 // ---- The run
 
 /// Meshes, writes all files and tells how it went.
-Status run(const Request& request)
+/// \param finest the least approximation that makes sense where none is asked for, in the input's units.
+template <class Oracle>
+Status mesh(const Request& request, const Oracle& domain, double finest)
 {
   command_line::Output_files files;
-  const Domain domain = read_domain(request);
   for (const std::string& filename : request.outputs) files.announce(filename);
   for (const std::string& filename : {request.histogram, request.report})
     if (!filename.empty()) files.announce(filename);
@@ -264,19 +281,28 @@ Status run(const Request& request)
   weft::Criteria_3<K> criteria = request.criteria;
   const double extent = diagonal(domain.bbox());
   criteria.size = request.size.in(extent);
-  criteria.approximation = request.approximation.in(extent);
+  const double approximation = request.approximation.in(extent);
+  criteria.approximation = request.approximation_is_given ? approximation : std::max(approximation, finest);
   const auto result = weft::make_mesh_3(domain, criteria, options);
   progress.bar().clear();
 
-  const Mesh mesh = weft::tetrahedral_mesh(result.mesh);
-  if (mesh.cells.empty())
-    throw Error(request.input + ": no mesh yet, " + name(result.report.stop_reason) + "; nothing is written");
-  const weft::Quality_3 quality = weft::measure_quality_3(mesh);
+  const Mesh tetrahedra = weft::tetrahedral_mesh(result.mesh);
+  if (tetrahedra.cells.empty())
+    throw Error(request.name() + ": no mesh yet, " + name(result.report.stop_reason) + "; nothing is written");
+  const weft::Quality_3 quality = weft::measure_quality_3(tetrahedra);
   const std::string missing = what_is_missing(request, result.report, quality.smallest_dihedral.degrees);
-  write_files(request, mesh, result.report, quality, files);
+  write_files(request, tetrahedra, result.report, quality, files);
   if (!request.quiet) std::cout << result.report << std::flush;
   if (!missing.empty()) command_line::complain("mesh_3", missing);
   return missing.empty() ? complete : stopped_early;
+}
+
+Status run(const Request& request)
+{
+  if (!weft::IO::is_label_image_filename(request.inputs.front())) return mesh(request, read_domain(request), 0);
+  const weft::Label_image_3 image = weft::IO::read_label_image(request.inputs.front());
+  const auto& voxel = image.spacing();
+  return mesh(request, weft::image_oracle_3<K>(image), 0.6 * *std::max_element(voxel.begin(), voxel.end()));
 }
 
 } // namespace

@@ -338,8 +338,7 @@ public:
     creases_are_stale_ = true;
     Cell_handle hint;
     for (const std::size_t i : order) {
-      if (find_conflict_zone(*tr_, points[i], tr_->locate(points[i], hint), no_batch, zone) != Zone_result::found)
-        continue;
+      if (find_conflict_zone(*tr_, points[i], hint, zone) != Zone_result::found) continue;
       hint = insert(zone, locations[i], static_cast<int>(before + i))->cell();
       new_cells_.clear(); // some of them don't live to see the end
     }
