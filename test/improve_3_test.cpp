@@ -45,12 +45,12 @@ Mesh ball(unsigned seed = 1)
   return fixtures::ball(500, 500, seed).mesh;
 }
 
-/// Every second interior vertex of a box moved far enough to turn cells over.
-Mesh tangled_box()
+/// A box whose interior vertices are moved at random, as far as that.
+Mesh shaken_box(int n, double reach)
 {
-  Mesh mesh = fixtures::box(4).mesh;
+  Mesh mesh = fixtures::box(n).mesh;
   std::mt19937 random(5);
-  const auto shift = [&random] { return 1.6 * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
+  const auto shift = [&random, reach] { return 2 * reach * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const double x = shift(), y = shift(), z = shift();
     const Point& p = mesh.points[v];
@@ -142,7 +142,7 @@ TEST_CASE("a ball full of slivers becomes a good mesh whose boundary vertices li
 
 TEST_CASE("patches, creases and corners keep their names, and sharp edges found by angle get new ones")
 {
-  Mesh mesh = fixtures::box(3).mesh;
+  Mesh mesh = shaken_box(3, 0.4);
   for (int& patch : mesh.patches) patch += 10;
   for (auto& at : mesh.locations)
     if (at.dimension == 2) at.index += 10;
@@ -169,7 +169,7 @@ TEST_CASE("patches, creases and corners keep their names, and sharp edges found 
 
 TEST_CASE("a mesh is improved on a domain that is given")
 {
-  const Mesh mesh = fixtures::box(3).mesh;
+  const Mesh mesh = shaken_box(3, 0.4);
   const auto bare = weft::assemble_mesh_3(mesh.points, mesh.cells).mesh;
   const weft::Polyhedral_oracle_3<K> oracle(
       weft::piecewise_smooth_complex(mesh.points, mesh.facets, weft::Feature_options{60}));
@@ -223,7 +223,7 @@ TEST_CASE("with a fixed boundary every facet stays to the last bit and the worst
 
 TEST_CASE("inverted cells are turned over")
 {
-  const Mesh mesh = tangled_box();
+  const Mesh mesh = shaken_box(4, 0.8);
   const auto [result, report] = weft::optimise_3(mesh, fixed());
   CAPTURE(report);
   CHECK(report.inverted_before > 20);
@@ -275,7 +275,7 @@ TEST_CASE("the same input gives the same mesh, whatever the number of threads")
   }
 }
 
-TEST_CASE("a run that is stopped at any time leaves a valid mesh")
+TEST_CASE("a run that is stopped at any time leaves a valid mesh that isn't worse than before")
 {
   const Mesh mesh = ball(4);
   for (const Boundary_3 boundary : {Boundary_3::slide, Boundary_3::fixed})
@@ -286,6 +286,22 @@ TEST_CASE("a run that is stopped at any time leaves a valid mesh")
       options.visitor = [&calls](const weft::Progress&) { return calls-- > 0; };
       const auto [result, report] = weft::optimise_3(mesh, options);
       CHECK((report.stop_reason == weft::Stop_reason::cancelled || calls >= 0));
+      CHECK(report.after.smallest_dihedral.degrees >= report.before.smallest_dihedral.degrees);
+      check_valid(result);
+    }
+}
+
+TEST_CASE("little time leaves a valid mesh that isn't worse than before")
+{
+  const Mesh mesh = ball(4);
+  for (const Boundary_3 boundary : {Boundary_3::slide, Boundary_3::fixed})
+    for (const double seconds : {0., 0.002, 0.02, 0.1}) {
+      Options options;
+      options.boundary = boundary;
+      options.time_limit = seconds;
+      const auto [result, report] = weft::optimise_3(mesh, options);
+      CHECK(report.after.smallest_dihedral.degrees >= report.before.smallest_dihedral.degrees);
+      CHECK(result.cells.size() > 0);
       check_valid(result);
     }
 }

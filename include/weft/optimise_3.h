@@ -58,6 +58,16 @@ void require_structure(const Tetrahedral_mesh_3<K>& mesh)
   throw Domain_error(fault.text + "; assemble_mesh_3() makes a mesh of points and cells", fault.vertices, {});
 }
 
+/// Whether a mesh has more inverted cells than another one, or as many and a smaller dihedral angle.
+template <class K>
+bool is_worse(const Tetrahedral_mesh_3<K>& a, const Tetrahedral_mesh_3<K>& b)
+{
+  if (a.cells.empty()) return true;
+  const std::size_t inverted_in_a = count_inverted(a), inverted_in_b = count_inverted(b);
+  if (inverted_in_a != inverted_in_b) return inverted_in_a > inverted_in_b;
+  return measure_quality_3(a).smallest_dihedral.degrees < measure_quality_3(b).smallest_dihedral.degrees;
+}
+
 /// Checks what is given, has `improve(report)` improve the mesh, and measures it before and after.
 template <class K, class Improve>
 Improve_result_3<K> improve_and_report(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options,
@@ -90,8 +100,11 @@ Improve_result_3<K> optimise_3(const Tetrahedral_mesh_3<K>& mesh,
                                const Improve_options_3& options = Improve_options_3())
 {
   return internal::improve_and_report(mesh, options, [&](Improve_report_3& report) {
-    return options.boundary == Boundary_3::slide ? improve_sliding_3(mesh, options, report)
-                                                 : improve_fixed_3(mesh, options, report);
+    if (options.boundary == Boundary_3::fixed) return improve_fixed_3(mesh, options, report);
+    auto result = improve_sliding_3(mesh, options, report);
+    if (options.delaunay || !internal::is_worse(result, mesh)) return result;
+    report.notes.emplace_back("nothing better was found: the mesh is as it was"); // or stopped half-way
+    return mesh;
   });
 }
 

@@ -67,7 +67,8 @@ inline Mesh_options_3 mesher_options(const Improve_options_3& options, double si
   result.size_floor = size_floor;
   result.lattice = false;
   result.max_vertices = options.max_vertices;
-  result.time_limit = options.time_limit;
+  // Half of the time is for local changes: smoothing alone leaves more slivers than there were.
+  result.time_limit = (options.delaunay ? 1 : 0.5) * options.time_limit;
   result.seed = options.seed;
   result.threads = options.threads;
   result.visitor = options.visitor;
@@ -280,7 +281,7 @@ Tetrahedral_mesh_3<K> finish_locally(const Tetrahedral_mesh_3<K>& mesh, const Te
   report.insertions += local.insertions;
   report.removals += local.removals;
   report.flips += local.flips;
-  if (local.stop_reason != Stop_reason::criteria_met) report.stop_reason = local.stop_reason;
+  report.stop_reason = local.stop_reason;
   report.stage_seconds.insert(report.stage_seconds.end(), local.stage_seconds.begin(), local.stage_seconds.end());
   return result;
 }
@@ -318,11 +319,6 @@ Tetrahedral_mesh_3<K> mesh_from_vertices(const Oracle& oracle, const Initial_ver
   return tetrahedral_mesh(mesher.mesh());
 }
 
-inline bool ended_early(const Improve_report_3& report)
-{
-  return report.stop_reason == Stop_reason::cancelled || report.stop_reason == Stop_reason::time_limit;
-}
-
 } // namespace internal
 
 /// Improves a mesh whose boundary slides on itself. Where the boundary can't be had as one of a Delaunay mesh with
@@ -338,18 +334,12 @@ Tetrahedral_mesh_3<K> improve_sliding_3(const Tetrahedral_mesh_3<K>& mesh, const
   const Initial_vertices_3<K> initial{mesh.points, boundary.locations(), options.fixed_vertices};
   auto result = internal::mesh_from_vertices(oracle, initial, mesh, sizing, options, report);
   boundary.restore_names(sizing, result);
-  const bool is_represented =
-      report.manifold && internal::topology_of_facets(result.facets) == internal::topology_of_facets(mesh.facets);
-  if (!is_represented) {
+  if (report.stop_reason == Stop_reason::cancelled) return result;
+  if (!report.manifold || internal::topology_of_facets(result.facets) != internal::topology_of_facets(mesh.facets)) {
     report.moves = report.insertions = report.removals = report.unrepresented = 0;
-    if (!internal::ended_early(report)) report.stop_reason = Stop_reason::criteria_met;
-    report.notes.emplace_back(
-        internal::ended_early(report)
-            ? "stopped before the boundary was represented: the mesh is as it was"
-            : "the boundary can't be that of a Delaunay mesh with these vertices: it stays fixed");
-    if (internal::ended_early(report)) return mesh;
+    report.notes.emplace_back("the boundary can't be that of a Delaunay mesh with these vertices: it stays fixed");
     result = mesh;
-  } else if (options.delaunay || internal::ended_early(report)) {
+  } else if (options.delaunay) {
     return result;
   }
   return finish_locally(result, mesh, options, report);
@@ -365,7 +355,7 @@ Tetrahedral_mesh_3<K> improve_on_domain_3(const Tetrahedral_mesh_3<K>& mesh, con
   const Boundary_sizing_3<K> sizing(mesh.points, mesh.facets);
   const internal::Vertices_on_domain_3<K, Oracle> vertices(mesh, oracle, sizing, options);
   auto result = internal::mesh_from_vertices(oracle, vertices.initial(), mesh, sizing, options, report);
-  if (options.delaunay || internal::ended_early(report) || result.cells.empty()) return result;
+  if (options.delaunay || report.stop_reason == Stop_reason::cancelled || result.cells.empty()) return result;
   return finish_locally(result, mesh, options, report);
 }
 

@@ -18,6 +18,7 @@
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <array>

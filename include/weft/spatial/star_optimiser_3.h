@@ -12,11 +12,13 @@
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace weft {
