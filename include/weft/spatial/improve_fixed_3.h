@@ -290,29 +290,54 @@ double best_quality_on_facet(const std::array<typename K::Point_3, 3>& f)
 
 } // namespace internal
 
-/// What facets that have to stay allow: the least over them of the largest smallest dihedral angle that a cell on one
-/// of them can have, in degrees. No mesh with these facets is better, up to how well those optima are found; it may be
-/// that none is as good. Looks at the facets with the smallest angles only.
+namespace internal {
+
+/// The angle that the cells from facet i of a cell on, around its edge ab, fill up to the next facet that has to stay.
+template <class K>
+double angle_to_next_fixed_facet(const Editable_mesh_3<K>& mesh, int c, int i, int a, int b)
+{
+  const auto f = mesh.facet(c, i);
+  int u = f[0] + f[1] + f[2] - a - b, w = mesh.cell(c).vertices[static_cast<std::size_t>(i)];
+  double sum = 0;
+  while (sum < 360) {
+    sum += std::abs(
+        CGAL::to_double(CGAL::approximate_dihedral_angle(mesh.point(a), mesh.point(b), mesh.point(u), mesh.point(w))));
+    const int next = mesh.neighbour(c, mesh.index(c, u));
+    if (next == Editable_mesh_3<K>::none) break;
+    u = w;
+    w = mesh.other_vertex(next, a, b, u);
+    c = next;
+  }
+  return sum;
+}
+
+} // namespace internal
+
+/// What facets that have to stay allow, in degrees: the least angle between two of them, and of the largest smallest
+/// dihedral angles that cells on them can have. No mesh with these facets is better, up to how well those optima are
+/// found; it may be that none is as good. Cells are looked for on the facets with the smallest angles only.
 template <class K>
 double fixed_facets_bound_3(const Editable_mesh_3<K>& mesh)
 {
   using Mesh = Editable_mesh_3<K>;
   using Facet = std::array<typename K::Point_3, 3>;
   std::vector<std::pair<double, Facet>> facets;
+  double bound = 180;
   for (int c = 0; c < mesh.number_of_cells(); ++c)
     for (int i = 0; i < 4 && mesh.cell(c).is_alive; ++i) {
       if (mesh.neighbour(c, i) != Mesh::none) continue;
       const auto v = mesh.facet(c, i);
       const Facet f = {mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2])};
       double smallest = 180;
-      for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t k = 0; k < 3; ++k) {
         smallest = (std::min)(smallest, CGAL::approximate_angle(f[(k + 1) % 3], f[k], f[(k + 2) % 3]));
+        bound = (std::min)(bound, internal::angle_to_next_fixed_facet(mesh, c, i, v[k], v[(k + 1) % 3]));
+      }
       facets.emplace_back(smallest, f);
     }
   constexpr std::size_t most = 100;
   const std::size_t n = (std::min)(most, facets.size());
   std::partial_sort(facets.begin(), facets.begin() + static_cast<std::ptrdiff_t>(n), facets.end());
-  double bound = 180;
   for (std::size_t k = 0; k < n; ++k)
     bound = (std::min)(bound, angle_of_quality_3(internal::best_quality_on_facet<K>(facets[k].second)));
   return bound;
@@ -325,10 +350,11 @@ Tetrahedral_mesh_3<K> improve_fixed_3(const Tetrahedral_mesh_3<K>& mesh, const I
 {
   internal::Lap_timer lap;
   Fixed_improver_3<K> improver(mesh, options);
-  report.boundary_bound = fixed_facets_bound_3(improver.mesh());
   report.stage_seconds.emplace_back("initialisation", lap.seconds());
   report.stop_reason = improver.run();
   report.stage_seconds.emplace_back("local changes", lap.seconds());
+  report.boundary_bound = fixed_facets_bound_3(improver.mesh()); // now: around inverted cells there are no angles
+  report.stage_seconds.emplace_back("bound", lap.seconds());
   const Local_counts_3& counts = improver.counts();
   report.moves = counts.moves;
   report.insertions = counts.insertions;
