@@ -133,6 +133,33 @@ public:
     }
   }
 
+  /// The same for an edge on the boundary or an interface: the cells around it between two facets that stay. There is
+  /// one vertex more than cells.
+  bool fan(int c, int a, int b, std::size_t most, std::vector<int>& cells, std::vector<int>& vertices) const
+  {
+    auto [u, w] = other_two(c, a, b);
+    for (std::size_t k = 0;; ++k) { // backwards to where it begins
+      const int previous = neighbour(c, index(c, w));
+      if (previous == none) break;
+      if (k > most) return false;
+      w = u;
+      u = other_vertex(previous, a, b, w);
+      c = previous;
+    }
+    cells.clear();
+    vertices.assign(1, u);
+    for (;;) {
+      cells.push_back(c);
+      vertices.push_back(w);
+      if (vertices.size() > most) return false;
+      const int next = neighbour(c, index(c, u));
+      if (next == none) return true;
+      u = w;
+      w = other_vertex(next, a, b, u);
+      c = next;
+    }
+  }
+
   /// The vertices of a cell besides a and b, so that (a, b, first, second) has its orientation.
   std::pair<int, int> other_two(int c, int a, int b) const
   {

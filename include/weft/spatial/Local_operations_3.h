@@ -69,28 +69,45 @@ public:
   /// (Klincsek's algorithm). O(n^3) for n cells around it.
   bool remove_edge(int c, int a, int b)
   {
-    if (!mesh_.ring(c, a, b, most_around, cells_, ring_)) return false;
+    if (!mesh_.ring(c, a, b, most_around, cells_, ring_)) return thin_fan(c, a, b);
     const std::size_t n = ring_.size();
     if (n < 3) return false;
     const double before = worst_of(cells_);
-    // best[i][j]: worst cell of the best triangulation of the ring from i to j, and where its triangle has its tip.
-    std::array<std::array<double, most_around>, most_around> best;
-    std::array<std::array<std::size_t, most_around>, most_around> tip{};
-    for (std::size_t i = 0; i + 1 < n; ++i) best[i][i + 1] = HUGE_VAL;
-    for (std::size_t length = 2; length < n; ++length)
-      for (std::size_t i = 0; i + length < n; ++i) {
-        const std::size_t j = i + length;
-        best[i][j] = -HUGE_VAL;
-        for (std::size_t k = i + 1; k < j; ++k) {
-          double q = (std::min)(best[i][k], best[k][j]);
-          if (q > (std::max)(best[i][j], before)) q = (std::min)(q, quality({ring_[i], ring_[k], ring_[j], b}));
-          if (q > (std::max)(best[i][j], before)) q = (std::min)(q, quality({ring_[i], ring_[j], ring_[k], a}));
-          if (q > best[i][j]) best[i][j] = q, tip[i][j] = k;
-        }
-      }
-    if (!(best[0][n - 1] > before + least_gain)) return false;
+    triangulate_ring(before, a, b);
+    if (!(best_[0][n - 1] > before + least_gain)) return false;
     made_.clear();
-    add_triangulation(tip, 0, n - 1, a, b);
+    add_triangulation(0, n - 1, a, b);
+    if (!mesh_.replace(cells_, made_)) return false;
+    ++counts_.edge_removals;
+    return true;
+  }
+
+  /// An edge that stays, on the boundary or an interface, gets fewer cells around it: in parts of the fan one each,
+  /// with the rest of that part cut off and triangulated as above. Many cells in a narrow wedge can't all be good.
+  bool thin_fan(int c, int a, int b)
+  {
+    if (!mesh_.fan(c, a, b, most_around, cells_, ring_)) return false;
+    const std::size_t n = ring_.size();
+    if (n < 3) return false;
+    const double before = worst_of(cells_);
+    triangulate_ring(before, a, b);
+    std::array<double, most_around> best; // of the parts so far
+    std::array<std::size_t, most_around> from{};
+    best[0] = HUGE_VAL;
+    for (std::size_t j = 1; j < n; ++j) {
+      best[j] = -HUGE_VAL;
+      for (std::size_t i = 0; i < j; ++i) {
+        double q = (std::min)(best[i], best_[i][j]);
+        if (q > best[j]) q = (std::min)(q, quality({a, b, ring_[i], ring_[j]}));
+        if (q > best[j]) best[j] = q, from[j] = i;
+      }
+    }
+    if (!(best[n - 1] > before + least_gain)) return false;
+    made_.clear();
+    for (std::size_t j = n - 1; j > 0; j = from[j]) {
+      made_.push_back({a, b, ring_[from[j]], ring_[j]});
+      add_triangulation(from[j], j, a, b);
+    }
     if (!mesh_.replace(cells_, made_)) return false;
     ++counts_.edge_removals;
     return true;
@@ -206,15 +223,33 @@ private:
 
   // ---- edges
 
-  void add_triangulation(const std::array<std::array<std::size_t, most_around>, most_around>& tip, std::size_t i,
-                         std::size_t j, int a, int b)
+  /// The worst cells of the best triangulations of all parts of the ring, as far as they are better than a bound, and
+  /// where the triangle at their ends has its tip.
+  void triangulate_ring(double bound, int a, int b)
+  {
+    const std::size_t n = ring_.size();
+    for (std::size_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = HUGE_VAL;
+    for (std::size_t length = 2; length < n; ++length)
+      for (std::size_t i = 0; i + length < n; ++i) {
+        const std::size_t j = i + length;
+        best_[i][j] = -HUGE_VAL;
+        for (std::size_t k = i + 1; k < j; ++k) {
+          double q = (std::min)(best_[i][k], best_[k][j]);
+          if (q > (std::max)(best_[i][j], bound)) q = (std::min)(q, quality({ring_[i], ring_[k], ring_[j], b}));
+          if (q > (std::max)(best_[i][j], bound)) q = (std::min)(q, quality({ring_[i], ring_[j], ring_[k], a}));
+          if (q > best_[i][j]) best_[i][j] = q, tip_[i][j] = k;
+        }
+      }
+  }
+
+  void add_triangulation(std::size_t i, std::size_t j, int a, int b)
   {
     if (j < i + 2) return;
-    const std::size_t k = tip[i][j];
+    const std::size_t k = tip_[i][j];
     made_.push_back({ring_[i], ring_[k], ring_[j], b});
     made_.push_back({ring_[i], ring_[j], ring_[k], a});
-    add_triangulation(tip, i, k, a, b);
-    add_triangulation(tip, k, j, a, b);
+    add_triangulation(i, k, a, b);
+    add_triangulation(k, j, a, b);
   }
 
   // ---- facets
@@ -333,6 +368,8 @@ private:
   Star_optimiser_3<K> optimiser_;
   int last_inserted_ = Mesh::none;
   std::vector<int> cells_, ring_, link_;
+  std::array<std::array<double, most_around>, most_around> best_{};
+  std::array<std::array<std::size_t, most_around>, most_around> tip_{};
   std::vector<Cell_vertices> made_;
   std::vector<Facet_vertices> outer_; ///< of the cavity
   std::vector<int> beyond_;           ///< cells beyond them, or none
