@@ -238,18 +238,19 @@ weft::Label_image_3 image_of(const Labelling& labelling, std::size_t n, double s
                              {{-middle * spacing, -middle * spacing, -middle * spacing}}, values);
 }
 
-/// By labels, from samples.
+/// By labels, from random samples: a grid would lie on one side of plane interfaces.
 std::map<int, double> volumes(const weft::Label_image_3& image)
 {
   std::map<int, double> sums;
-  constexpr int n = 150;
+  constexpr int n = 4000000;
   const CGAL::Bbox_3 b = image.bbox();
-  const double step = (b.xmax() - b.xmin()) / n;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k)
-        sums[image(Point(b.xmin() + (i + 0.5) * step, b.ymin() + (j + 0.5) * step, b.zmin() + (k + 0.5) * step))] +=
-            step * step * step;
+  const double box = (b.xmax() - b.xmin()) * (b.ymax() - b.ymin()) * (b.zmax() - b.zmin());
+  std::mt19937 random(3);
+  const auto between = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
+  for (int i = 0; i < n; ++i) {
+    const double x = between(b.xmin(), b.xmax()), y = between(b.ymin(), b.ymax()), z = between(b.zmin(), b.zmax());
+    sums[image(Point(x, y, z))] += box / n;
+  }
   return sums;
 }
 

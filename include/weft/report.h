@@ -100,10 +100,11 @@ inline std::ostream& operator<<(std::ostream& out, const Mesh_report_2& r)
 /// Elements of one kind that violate a criterion at the end, by what keeps them from being refined.
 struct Unsatisfied_3
 {
-  std::size_t size = 0, approximation = 0, shape = 0, topology = 0, disk = 0, demand = 0; ///< by criterion; may overlap
-  std::size_t elements = 0;                                                               ///< bad elements altogether
+  std::size_t size = 0, approximation = 0, shape = 0, topology = 0, disk = 0; ///< by criterion; may overlap
+  std::size_t elements = 0;                                                   ///< bad elements altogether
   std::size_t at_floor = 0;      ///< of them, whose Steiner point would come closer to a vertex than the size floor
   std::size_t at_acute_edge = 0; ///< of them, beside an edge of the input with an acute dihedral angle
+  std::size_t demand = 0;        ///< of them, by a demand of the user
 };
 
 /// Result of `make_mesh_3()`.
