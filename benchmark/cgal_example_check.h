@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 
 namespace cgal_example {
@@ -68,6 +69,7 @@ C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria, const char* nam
   weft::Mesh_report_3 report;
   weft::Mesh_options_3 options;
   options.time_limit = 120;
+  if (const char* angle = std::getenv("WEFT_EXAMPLES_ANGLE")) options.min_dihedral_angle = std::atof(angle);
   const C3t3 mine = weft::make_mesh_3<C3t3>(domain, criteria, options, &report);
   Figures figures = measure(mine, criteria);
   figures.seconds = benchmark::user_seconds() - begin;

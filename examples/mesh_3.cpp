@@ -265,9 +265,9 @@ void write_files(const Request& request, const Mesh& mesh, const weft::Mesh_repo
 // ---- The run
 
 /// Meshes, writes all files and tells how it went.
-/// \param finest the least approximation that makes sense where none is asked for, in the input's units.
+/// \param detail size of the smallest details of the input that count, in its units; 0 if all do.
 template <class Oracle>
-Status mesh(const Request& request, const Oracle& domain, double finest)
+Status mesh(const Request& request, const Oracle& domain, double detail)
 {
   command_line::Output_files files;
   for (const std::string& filename : request.outputs) files.announce(filename);
@@ -282,7 +282,8 @@ Status mesh(const Request& request, const Oracle& domain, double finest)
   const double extent = diagonal(domain.bbox());
   criteria.size = request.size.in(extent);
   const double approximation = request.approximation.in(extent);
-  criteria.approximation = request.approximation_is_given ? approximation : std::max(approximation, finest);
+  criteria.approximation = request.approximation_is_given ? approximation : std::max(approximation, 0.6 * detail);
+  options.size_floor = 0.3 * detail;
   const auto result = weft::make_mesh_3(domain, criteria, options);
   progress.bar().clear();
 
@@ -302,7 +303,7 @@ Status run(const Request& request)
   if (!weft::IO::is_label_image_filename(request.inputs.front())) return mesh(request, read_domain(request), 0);
   const weft::Label_image_3 image = weft::IO::read_label_image(request.inputs.front());
   const auto& voxel = image.spacing();
-  return mesh(request, weft::image_oracle_3<K>(image), 0.6 * *std::max_element(voxel.begin(), voxel.end()));
+  return mesh(request, weft::image_oracle_3<K>(image), *std::max_element(voxel.begin(), voxel.end()));
 }
 
 } // namespace

@@ -29,8 +29,10 @@ C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria, const Mesh_opti
                  Mesh_report_3* report = nullptr)
 {
   using Oracle = Mesh_domain_oracle_3<Domain>;
-  constexpr double smallest_detail = 1e-4; // in diagonals: fandisk's creases part at 15 degrees
   const Oracle oracle(domain);
+  // In diagonals. Creases may part at small angles; what else is as small are steps of images, at which the search for
+  // a manifold boundary doesn't end by itself.
+  const double smallest_detail = oracle.number_of_creases() > 0 ? 1e-4 : 1e-3;
   const auto own_criteria = cgal_criteria_3<C3t3>(criteria, oracle);
   Mesh_options_3 own_options = options;
   const auto b = oracle.bbox();
