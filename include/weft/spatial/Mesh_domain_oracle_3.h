@@ -129,7 +129,8 @@ public:
   bool meets(const Point& p, int at_p, const Point& q) const
   {
     if (!is_precise_) return Base::meets(p, at_p, q);
-    return p != q && bool(domain_->do_intersect_surface_object()(Segment(p, q)));
+    Surface_hit_3<Kernel> hit{p, -1};
+    return intersection(p, q, hit);
   }
   bool first_hit(const Point& p, int at_p, const Point& q, Surface_hit_3<Kernel>& hit) const
   {
