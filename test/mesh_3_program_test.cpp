@@ -260,3 +260,13 @@ TEST_CASE("help and version go to stdout, and the help names every option of the
   CHECK(version.status == 0);
   CHECK(version.out == "mesh_3 (weft) " WEFT_VERSION "\n");
 }
+
+TEST_CASE("a sliver whose measure rounds in another way once something was tried and undone doesn't end the program")
+{
+  const Folder folder("undone");
+  const std::string surface = WEFT_TEST_DATA_DIR "/torus_with_thin_facets.off";
+  const Outcome outcome = folder.run("'" + surface + "' --size 7.94792% --topology --seed 26 --max-vertices 20000 " +
+                                     "--time-limit 20 --output mesh.mesh --quiet");
+  CHECK((outcome.status == 0 || outcome.status == 2));
+  CHECK(folder.new_files() == Names{"mesh.mesh"});
+}

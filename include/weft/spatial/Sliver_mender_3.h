@@ -145,7 +145,11 @@ private:
 
   bool make_room(const Sliver_3& sliver)
   {
-    const std::vector<int> around = vertices_around(cell(sliver));
+    // What has been tried and undone may have put the cell's vertices into another order. Its measure is then rounded
+    // in another way and may be no more than the bound.
+    const Cell_handle c = cell(sliver);
+    if (c == Cell_handle()) return true;
+    const std::vector<int> around = vertices_around(c);
     for (const Purpose purpose : {Purpose::better, Purpose::shake})
       for (const int id : around) {
         if (is_late()) return false;
