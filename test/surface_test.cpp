@@ -1000,3 +1000,15 @@ TEST_CASE("OFF files may have colours, a header of their own, or none")
   }
   CHECK(!message_of_reading("off", "4OFF\n" + body).empty());
 }
+
+TEST_CASE("a surface that intersects itself in too many facets is left as it is by repair")
+{
+  const std::size_t n = 100;
+  Soup soup = soup_of(together(torus(n, n), moved(torus(n, n), 1, 1e-3, 0, 0)));
+  const std::size_t facets = soup.polygons.size(), points = soup.points.size();
+  const auto changes = weft::repair_surface<K>(soup);
+  REQUIRE(changes.size() == 1);
+  CHECK(changes[0].find("self-intersections left") == 0);
+  CHECK(soup.polygons.size() == facets);
+  CHECK(soup.points.size() == points);
+}
