@@ -625,3 +625,22 @@ TEST_CASE("a cache refuses bad options and bad fields")
   const auto zero = [](const Point&) { return 0.; };
   CHECK_THROWS_AS((weft::Cached_sizing_2<K, decltype(zero)>(zero, box)), weft::Option_error);
 }
+
+TEST_CASE(
+    "features so near to each other that lfs rounds to zero are refused with their place, or need a smallest size")
+{
+  // The corner at (1e-200, 0.5) is off the side of the square, but the square of its distance underflows.
+  const Pslg pslg{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1e-200, 0.5}, {0.5, 0.3}, {0.5, 0.7}},
+                  {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 4}},
+                  {},
+                  {},
+                  {},
+                  {}};
+  try {
+    Lfs(pslg, 0.5);
+    FAIL("accepted");
+  } catch (const weft::Domain_error& error) {
+    CHECK(std::string(error.what()).find("rounds to 0 near (") != std::string::npos);
+  }
+  CHECK(Lfs(pslg, 0.5, 1e-3)(pslg.points[4]) == Approx(1e-3));
+}

@@ -66,7 +66,8 @@ public:
   /// tree.
   ///
   /// \param tolerance relative error, in (0, 1].
-  /// \throws Domain_error when `min_size` is 0 and features meet without sharing a point: lfs is 0 there.
+  /// \throws Domain_error when `min_size` is 0 and features meet without sharing a point: lfs is 0 there; or come so
+  /// near to each other that lfs rounds to 0.
   std::vector<Source> sources(double tolerance, double min_size, double max_size) const
   {
     std::vector<Source> result;
@@ -76,6 +77,8 @@ public:
         describe_segment(i, limits, result);
       else if (stars_[features_[i].a].empty())
         describe_point(i, limits, result);
+    if (min_size == 0)
+      for (const Source& source : result) refuse_vanishing(source);
     return result;
   }
 
@@ -357,6 +360,15 @@ private:
   {
     if (limits.min_size == 0 && s.value < contact && s.from[0] == s.from[1])
       refuse_contact(track.self, features_[s.from[0]]);
+  }
+
+  static void refuse_vanishing(const Source& source)
+  {
+    if (source.source_size > 0 && source.target_size > 0) return;
+    const Point& at = source.source_size > 0 ? source.target : source.source;
+    throw Domain_error("the local feature size rounds to 0 near (" + std::to_string(CGAL::to_double(at.x())) + ", " +
+                           std::to_string(CGAL::to_double(at.y())) + "): a smallest size is needed",
+                       {}, {});
   }
 
   // Features of a planar straight line graph meet in shared points only.
