@@ -18,6 +18,8 @@ run(${CMAKE_COMMAND} -S ${project_dir} -B ${work_dir}/build -G ${generator}
   -D CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE=TRUE
   -D CMAKE_PREFIX_PATH=${prefix}
   -D CGAL_DIR=${cgal_dir}
+  "-D cgal_include_dirs=${cgal_include_dirs}"
+  -D pkgconfig_dir=${pkgconfig_dir}
   -D weft_source_dir=${weft_source_dir}
   -D weft_version=${weft_version})
 run(${CMAKE_COMMAND} --build ${work_dir}/build --config Debug)
