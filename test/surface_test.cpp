@@ -1012,3 +1012,9 @@ TEST_CASE("a surface that intersects itself in too many facets is left as it is 
   CHECK(soup.polygons.size() == facets);
   CHECK(soup.points.size() == points);
 }
+
+TEST_CASE("facets that stay degenerate don't break repair")
+{
+  const Soup soup = weft::IO::read_surface<K>(WEFT_TEST_DATA_DIR "/merged_vertices.off");
+  CHECK_THROWS_AS(weft::piecewise_smooth_complex(soup, 60, weft::repair_surface<K>), weft::Domain_error);
+}

@@ -17,6 +17,7 @@
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -179,7 +180,9 @@ void repair_mesh(Mesh& mesh, Repair_log& log)
   if (mesh.number_of_faces() < facets)
     log_count(log, facets - mesh.number_of_faces(), "degenerate facet collapsed", "degenerate facets collapsed");
   log_count(log, fill_holes(mesh), "hole filled", "holes filled");
-  if (!CGAL::is_closed(mesh)) return;
+  // Removing intersections smooths, which must not meet degenerate facets.
+  const auto is_degenerate = [&mesh](auto f) { return PMP::is_degenerate_triangle_face(f, mesh); };
+  if (!CGAL::is_closed(mesh) || std::any_of(faces(mesh).begin(), faces(mesh).end(), is_degenerate)) return;
   const std::size_t intersecting = count_intersecting(mesh);
   if (intersecting > most_facets_to_mend)
     log.push_back("self-intersections left, since " + std::to_string(intersecting) + " facets have them");
