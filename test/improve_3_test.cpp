@@ -7,6 +7,7 @@
 
 #include <weft/optimise_3.h>
 #include <weft/spatial/assemble_mesh_3.h>
+#include <weft/spatial/merge_surfaces_3.h>
 #include <weft/spatial/validate_3.h>
 
 #include <catch2/catch.hpp>
@@ -46,9 +47,9 @@ Mesh ball(unsigned seed = 1)
 }
 
 /// A box whose interior vertices are moved at random, as far as that.
-Mesh shaken_box(int n, double reach)
+Mesh shaken_box(int n, double reach, bool two_subdomains = false)
 {
-  Mesh mesh = fixtures::box(n).mesh;
+  Mesh mesh = fixtures::box(n, two_subdomains).mesh;
   std::mt19937 random(5);
   const auto shift = [&random, reach] { return 2 * reach * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
@@ -183,10 +184,149 @@ TEST_CASE("a mesh is improved on a domain that is given")
   CHECK_THROWS_AS(weft::optimise_3(bare, oracle, fixed()), weft::Option_error);
 }
 
-TEST_CASE("several subdomains can't slide, and keep their interfaces with a fixed boundary")
+/// Points of a sphere, nearly evenly.
+void add_sphere(double radius, int n, std::vector<Point>& points)
+{
+  constexpr double golden_angle = 2.399963229728653;
+  for (int i = 0; i < n; ++i) {
+    const double z = 1 - (2 * i + 1.) / n, r = std::sqrt(1 - z * z);
+    points.emplace_back(radius * r * std::cos(golden_angle * i), radius * r * std::sin(golden_angle * i), radius * z);
+  }
+}
+
+/// A ball of radius 1 with subdomain 7 in one of radius 2 with subdomain 3: slivers, no tags of facets.
+Mesh ball_in_ball()
+{
+  std::vector<Point> points;
+  add_sphere(2, 700, points);
+  add_sphere(1, 200, points);
+  std::mt19937 random(11);
+  const auto coordinate = [&random] { return static_cast<double>(random()) / 1073741824. - 2; };
+  while (points.size() < 1500) {
+    const double x = coordinate(), y = coordinate(), z = coordinate(), r = std::sqrt(x * x + y * y + z * z);
+    if (r < 1.85 && std::abs(r - 1) > 0.12) points.emplace_back(x, y, z);
+  }
+  fixtures::Triangulation triangulation(points.begin(), points.end());
+  std::map<Point, std::size_t> number;
+  for (std::size_t v = 0; v < points.size(); ++v) number.emplace(points[v], v);
+  std::vector<std::array<std::size_t, 4>> cells;
+  std::vector<int> subdomains;
+  for (const auto cell : triangulation.finite_cell_handles()) {
+    double farthest = 0;
+    std::array<std::size_t, 4> corners{};
+    for (int i = 0; i < 4; ++i) {
+      const Point& p = cell->vertex(i)->point();
+      farthest = std::max(farthest, CGAL::squared_distance(p, Point(0, 0, 0)));
+      corners[static_cast<std::size_t>(i)] = number.at(p);
+    }
+    cells.push_back(corners);
+    subdomains.push_back(farthest < 1.001 ? 7 : 3);
+  }
+  return weft::assemble_mesh_3(points, cells, subdomains).mesh;
+}
+
+/// The longest distance of a vertex on a boundary or interface from the facets of a mesh.
+double farthest_from(const Mesh& mesh, const Mesh& result)
+{
+  double farthest = 0;
+  for (std::size_t v = 0; v < result.points.size(); ++v)
+    if (result.locations[v].dimension < 3) farthest = std::max(farthest, distance_from(mesh, result.points[v]));
+  return farthest;
+}
+
+TEST_CASE("two boxes with a common face: the interface slides on itself, and each keeps its volume and its names")
+{
+  Mesh mesh = shaken_box(4, 0.3, true);
+  for (int& patch : mesh.patches) patch += 10;
+  for (auto& at : mesh.locations)
+    if (at.dimension == 2) at.index += 10;
+  for (const bool delaunay : {false, true}) {
+    Options options;
+    options.delaunay = delaunay;
+    options.min_dihedral_angle = 18;
+    const auto [result, report] = weft::optimise_3(mesh, options);
+    CAPTURE(delaunay, report);
+    CHECK(report.ok());
+    CHECK(report.notes.empty());
+    CHECK(report.after.smallest_dihedral.degrees >= 18);
+    CHECK(volume_of(result, 1) == Approx(32));
+    CHECK(volume_of(result, 2) == Approx(32));
+    CHECK(result.corners.size() == 12); // the rim of the interface is sharp
+    CHECK(std::set<int>(result.patches.begin(), result.patches.end()) ==
+          std::set<int>(mesh.patches.begin(), mesh.patches.end()));
+    const std::set<int> before(mesh.creases.begin(), mesh.creases.end());
+    const std::set<int> after(result.creases.begin(), result.creases.end());
+    CHECK(std::includes(after.begin(), after.end(), before.begin(), before.end()));
+    CHECK(after.size() == 16); // and has no name in the mesh
+    CHECK(farthest_from(mesh, result) < 1e-9);
+    check_valid(result);
+  }
+}
+
+TEST_CASE("a ball in a ball: both boundaries slide on themselves, with a fixed boundary they stay to the last bit")
+{
+  const Mesh mesh = ball_in_ball();
+  Options options;
+  options.min_dihedral_angle = 18;
+  const auto [result, report] = weft::optimise_3(mesh, options);
+  CAPTURE(report);
+  CHECK(report.before.smallest_dihedral.degrees < 2);
+  CHECK(report.after.smallest_dihedral.degrees >= 18);
+  CHECK(report.ok());
+  CHECK(report.notes.empty());
+  CHECK(result.points.size() < 1.1 * mesh.points.size());
+  CHECK(volume_of(result, 3) == Approx(volume_of(mesh, 3)).epsilon(0.01));
+  CHECK(volume_of(result, 7) == Approx(volume_of(mesh, 7)).epsilon(0.03));
+  CHECK(farthest_from(mesh, result) < 1e-9);
+  check_valid(result);
+  CHECK(same(result, weft::optimise_3(mesh, options).mesh));
+  options.boundary = Boundary_3::fixed;
+  CHECK(facets_of(weft::optimise_3(mesh, options).mesh) == facets_of(mesh));
+}
+
+TEST_CASE("several subdomains are improved on a domain that is given")
+{
+  const Mesh mesh = ball_in_ball();
+  std::vector<weft::Polygon_soup_3<K>> surfaces(2); // the outer surface, and that of the ball inside
+  for (auto& surface : surfaces) surface.points = mesh.points;
+  for (const auto& [subdomain, facet] : weft::internal::subdomain_boundaries(mesh)) {
+    const std::vector<std::size_t> corners(facet.begin(), facet.end());
+    if (subdomain == 7) surfaces[1].polygons.push_back(corners);
+    if (subdomain == 3 && CGAL::squared_distance(mesh.points[facet[0]], Point(0, 0, 0)) > 2)
+      surfaces[0].polygons.push_back(corners);
+  }
+  const weft::Polyhedral_oracle_3<K> oracle(weft::piecewise_smooth_complex(surfaces));
+  const auto [result, report] = weft::optimise_3(mesh, oracle, Options());
+  CAPTURE(report);
+  CHECK(report.ok());
+  CHECK(report.after.smallest_dihedral.degrees >= 15);
+  CHECK(volume_of(result, 1) == Approx(volume_of(mesh, 3)).epsilon(0.01));
+  CHECK(volume_of(result, 2) == Approx(volume_of(mesh, 7)).epsilon(0.03));
+  check_valid(result);
+}
+
+TEST_CASE("subdomains whose boundaries aren't manifold or meet improperly don't slide, but take a fixed boundary")
+{
+  Mesh mesh = fixtures::box(2).mesh; // two opposite octants meet at a point
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    double x = 0, y = 0, z = 0;
+    for (const std::size_t v : mesh.cells[c])
+      x += mesh.points[v].x() / 4, y += mesh.points[v].y() / 4, z += mesh.points[v].z() / 4;
+    mesh.subdomains[c] = (x > 1) == (y > 1) && (y > 1) == (z > 1) ? 2 : 1;
+  }
+  const Mesh touching = weft::assemble_mesh_3(mesh.points, mesh.cells, mesh.subdomains).mesh;
+  CHECK_THROWS_AS(weft::optimise_3(touching), weft::Domain_error);
+  CHECK(facets_of(weft::optimise_3(touching, fixed()).mesh) == facets_of(touching));
+  Mesh crossing = fixtures::box(4, true).mesh;
+  for (std::size_t v = 0; v < crossing.points.size(); ++v)
+    if (crossing.locations[v] == fixtures::Location{2, 6} && crossing.points[v] == Point(2, 2, 2))
+      crossing.points[v] = Point(9, 2, 2); // out at the other end
+  CHECK_THROWS_AS(weft::optimise_3(crossing), weft::Domain_error);
+}
+
+TEST_CASE("several subdomains keep their interfaces with a fixed boundary")
 {
   const Mesh mesh = fixtures::box(4, true).mesh;
-  CHECK_THROWS_AS(weft::optimise_3(mesh), weft::Domain_error);
   Mesh shaken = mesh;
   for (std::size_t v = 0; v < shaken.points.size(); ++v)
     if (shaken.locations[v].dimension == 3) {

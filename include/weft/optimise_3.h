@@ -94,7 +94,7 @@ Improve_result_3<K> improve_and_report(const Tetrahedral_mesh_3<K>& mesh, const 
 /// Vertices of the boundary come first in the result where it slides; with a fixed boundary vertices keep their order.
 /// \param mesh from a reader, `from_c3t3()` or `assemble_mesh_3()`; cells may be slivers, not Delaunay, or inverted.
 /// \throws Option_error for options out of range; Domain_error if the arrays aren't a mesh, or if the boundary is to
-///   slide and isn't a closed surface without self-intersections.
+///   slide and isn't, for each subdomain, a closed surface without self-intersections.
 template <class K>
 Improve_result_3<K> optimise_3(const Tetrahedral_mesh_3<K>& mesh,
                                const Improve_options_3& options = Improve_options_3())

@@ -7,6 +7,7 @@
 #define WEFT_SPATIAL_SLIDING_IMPROVER_3_H
 
 #include <weft/errors.h>
+#include <weft/internal/interface_complex_3.h>
 #include <weft/internal/Mesh_facets_3.h>
 #include <weft/options.h>
 #include <weft/spatial/Boundary_sizing_3.h>
@@ -92,13 +93,13 @@ template <class K>
 class Mesh_boundary_3
 {
 public:
-  /// \throws Domain_error if the boundary isn't a closed surface without self-intersections.
+  /// \throws Domain_error if the boundary of a subdomain isn't a closed surface without self-intersections.
   Mesh_boundary_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options) : mesh_(mesh)
   {
-    for (const int s : mesh.subdomains)
-      if (s != mesh.subdomains.front())
-        throw Domain_error("the mesh has several subdomains; only fixed boundaries are possible then", {}, {});
-    complex_ = piecewise_smooth_complex(mesh.points, mesh.facets, feature_options(options));
+    if (has_one_subdomain())
+      complex_ = piecewise_smooth_complex(mesh.points, mesh.facets, feature_options(options));
+    else
+      complex_ = complex_of_interfaces(feature_options(options));
     place_vertices();
     name_parts();
   }
@@ -121,18 +122,48 @@ public:
                   : patch_at(CGAL::centroid(result.points[v[0]], result.points[v[1]], result.points[v[2]]));
     }
     for (int& crease : result.creases) crease = crease_names_[static_cast<std::size_t>(crease)];
-    result.subdomains.assign(result.cells.size(), mesh_.subdomains.front());
+    const bool is_one = has_one_subdomain();
+    if (is_one) result.subdomains.assign(result.cells.size(), mesh_.subdomains.front());
     for (std::size_t v = 0; v < result.points.size(); ++v) {
       auto& at = result.locations[v];
       if (at.dimension == 1) at.index = crease_names_[static_cast<std::size_t>(at.index)];
       if (at.dimension == 2)
         at.index = names_are_unique_ ? patch_names_[static_cast<std::size_t>(at.index)] : patch_at(result.points[v]);
-      if (at.dimension == 3) at.index = mesh_.subdomains.front();
+      if (at.dimension == 3 && is_one) at.index = mesh_.subdomains.front();
     }
   }
 
 private:
   using Edge = std::array<std::size_t, 2>;
+
+  bool has_one_subdomain() const
+  {
+    return std::all_of(mesh_.subdomains.begin(), mesh_.subdomains.end(),
+                       [this](int s) { return s == mesh_.subdomains.front(); });
+  }
+
+  /// The complex of several subdomains. Facets look away from the smaller number, outwards if there is but one.
+  Piecewise_smooth_complex_3<K> complex_of_interfaces(const Feature_options& options) const
+  {
+    const Validity_3 validity = check_manifold_3(mesh_);
+    if (!validity.ok()) throw Domain_error(validity.faults.front().text, validity.faults.front().vertices, {});
+    std::map<std::array<std::size_t, 3>, std::vector<Boundary_facet_3>> cells_at;
+    for (const Boundary_facet_3& side : subdomain_boundaries(mesh_)) cells_at[sorted(side.vertices)].push_back(side);
+    Triangle_surface_3<K> surface;
+    std::vector<std::pair<int, int>> sides;
+    surface.points = mesh_.points;
+    for (const auto& facet : mesh_.facets) { // in this order: messages count them
+      const auto& found = cells_at.at(sorted(facet));
+      const bool last_is_behind = found.back().subdomain < found.front().subdomain;
+      const Boundary_facet_3& behind = last_is_behind ? found.back() : found.front();
+      const Boundary_facet_3& before = last_is_behind ? found.front() : found.back();
+      surface.triangles.push_back(behind.vertices);
+      sides.emplace_back(behind.subdomain, found.size() == 1 ? 0 : before.subdomain);
+    }
+    check_degenerate_facets(surface);
+    check_interfaces_apart(surface);
+    return interface_complex_3(std::move(surface), sides, options);
+  }
 
   /// Sharp whatever their angle: edges listed, and those between patches.
   Feature_options feature_options(const Improve_options_3& improve_options) const
@@ -164,8 +195,11 @@ private:
     std::vector<char> is_on_boundary(mesh_.points.size(), false);
     for (const auto& facet : mesh_.facets)
       for (const std::size_t v : facet) is_on_boundary[v] = true;
+    std::vector<int> subdomain(mesh_.points.size(), 1);
+    for (std::size_t c = 0; c < mesh_.cells.size() && !complex_.sides.empty(); ++c)
+      for (const std::size_t v : mesh_.cells[c]) subdomain[v] = mesh_.subdomains[c];
     for (std::size_t v = 0, next = 0; v < mesh_.points.size(); ++v) { // the complex keeps the order
-      locations_.push_back(is_on_boundary[v] ? of_complex[next] : Vertex_location_3{3, 1});
+      locations_.push_back(is_on_boundary[v] ? of_complex[next] : Vertex_location_3{3, subdomain[v]});
       if (is_on_boundary[v]) original_.push_back(v), ++next;
     }
   }
@@ -224,10 +258,12 @@ public:
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
       const Point& p = mesh.points[v];
       if (is_fixed[v] && taken_.count(p) == 0) initial_.fixed.push_back(initial_.points.size());
-      if (is_on_boundary[v])
+      if (is_on_boundary[v]) {
         add_on_surface(p, near * sizing(p), is_fixed[v]);
-      else if (is_fixed[v] || oracle.subdomain(p) != 0)
-        add(p, {3, 1});
+        continue;
+      }
+      const int subdomain = oracle.subdomain(p);
+      if (is_fixed[v] || subdomain != 0) add(p, {3, (std::max)(subdomain, 1)});
     }
   }
 
@@ -306,6 +342,18 @@ inline std::array<long, 2> topology_of_facets(const std::vector<std::array<std::
           static_cast<long>(number_of_components(edges))};
 }
 
+/// The same of the boundary of each subdomain.
+template <class K>
+std::map<int, std::array<long, 2>> topology_of_subdomains(const Tetrahedral_mesh_3<K>& mesh)
+{
+  std::map<int, std::vector<std::array<std::size_t, 3>>> boundaries;
+  for (const Boundary_facet_3& facet : subdomain_boundaries(mesh))
+    boundaries[facet.subdomain].push_back(facet.vertices);
+  std::map<int, std::array<long, 2>> result;
+  for (const auto& [subdomain, facets] : boundaries) result[subdomain] = topology_of_facets(facets);
+  return result;
+}
+
 /// Meshes a domain beginning with vertices that there are.
 template <class Oracle, class K>
 Tetrahedral_mesh_3<K> mesh_from_vertices(const Oracle& oracle, const Initial_vertices_3<K>& initial,
@@ -335,7 +383,7 @@ Tetrahedral_mesh_3<K> improve_sliding_3(const Tetrahedral_mesh_3<K>& mesh, const
   auto result = internal::mesh_from_vertices(oracle, initial, mesh, sizing, options, report);
   boundary.restore_names(sizing, result);
   if (report.stop_reason == Stop_reason::cancelled) return result;
-  if (!report.manifold || internal::topology_of_facets(result.facets) != internal::topology_of_facets(mesh.facets)) {
+  if (!report.manifold || internal::topology_of_subdomains(result) != internal::topology_of_subdomains(mesh)) {
     report.moves = report.insertions = report.removals = report.unrepresented = 0;
     report.notes.emplace_back("the boundary can't be that of a Delaunay mesh with these vertices: it stays fixed");
     result = mesh;

@@ -6,7 +6,7 @@
 #ifndef WEFT_SPATIAL_MERGE_SURFACES_3_H
 #define WEFT_SPATIAL_MERGE_SURFACES_3_H
 
-#include <weft/internal/Disjoint_parts.h>
+#include <weft/internal/interface_complex_3.h>
 #include <weft/internal/Triangle_hierarchy_3.h>
 #include <weft/spatial/features_3.h>
 
@@ -53,7 +53,7 @@ public:
   Complex complex(const Feature_options& options)
   {
     check_crossings();
-    Complex result;
+    Triangle_surface_3<K> surface;
     std::vector<std::pair<int, int>> sides;
     for (const Facet& facet : facets_) {
       auto [behind, before] = sides_of(facet);
@@ -63,13 +63,14 @@ public:
         std::swap(corners[1], corners[2]);
         std::swap(behind, before);
       }
-      result.triangles.push_back(corners);
+      surface.triangles.push_back(corners);
       sides.emplace_back(behind, before);
     }
-    result.points = points_;
-    add_creases(sides, options, result);
-    drop_unused_points(result);
-    return result;
+    surface.points = points_;
+    Feature_options by_angle = options;
+    by_angle.sharp_edges.clear();
+    by_angle.tips_and_cusps.clear();
+    return interface_complex_3(std::move(surface), sides, by_angle);
   }
 
 private:
@@ -142,49 +143,6 @@ private:
   {
     const double r = 1e-13 * (std::abs(p.x()) + std::abs(p.y()) + std::abs(p.z()));
     return r * r;
-  }
-
-  /// Edges that are sharp by their angle or have other than two facets with the same subdomains on both sides.
-  void add_creases(const std::vector<std::pair<int, int>>& sides, const Feature_options& options, Complex& result) const
-  {
-    const auto sorted = sorted_sides(result.triangles);
-    const bool by_angle = options.sharp_angle > 0 && options.sharp_angle < 180;
-    const auto normal = [&](std::size_t t) {
-      const auto& [a, b, c] = result.triangles[t];
-      return unit_facet_normal(result.points[a], result.points[b], result.points[c]);
-    };
-    std::vector<std::array<std::size_t, 2>> sharp;
-    Disjoint_parts patches(result.triangles.size()), shells(result.triangles.size());
-    for_each_edge(sorted, [&](auto first, auto last) {
-      for (auto other = first + 1; other != last; ++other) shells.unite(first->triangle, other->triangle);
-      const auto second = first + 1;
-      const bool is_sharp = last - first != 2 || sides[first->triangle] != sides[second->triangle] ||
-                            first->forward == second->forward ||
-                            (by_angle && angle_between(normal(first->triangle), normal(second->triangle)) >=
-                                             options.sharp_angle - angle_tolerance);
-      if (is_sharp)
-        sharp.push_back({first->low, first->high});
-      else
-        patches.unite(first->triangle, second->triangle);
-    });
-    const Sharp_graph_3 graph(result.points.size(), sharp);
-    result.features =
-        feature_vertices<K>(graph, result.points, std::vector<bool>(result.points.size(), false), options.cusp_angle);
-    result.creases = chain_creases<K>(graph, result.features);
-    result.number_of_patches = number_parts(patches, result.triangles.size(), result.patches);
-    result.number_of_shells = number_parts(shells, result.triangles.size(), result.shells);
-    result.sides.resize(static_cast<std::size_t>(result.number_of_patches));
-    for (std::size_t t = 0; t < sides.size(); ++t) result.sides[static_cast<std::size_t>(result.patches[t])] = sides[t];
-  }
-
-  /// Numbers parts by their first triangle; returns how many there are.
-  static int number_parts(Disjoint_parts& parts, std::size_t n, std::vector<int>& number)
-  {
-    std::map<std::size_t, int> number_of_part;
-    for (std::size_t t = 0; t < n; ++t)
-      number.push_back(
-          number_of_part.try_emplace(parts.find(t), static_cast<int>(number_of_part.size())).first->second);
-    return static_cast<int>(number_of_part.size());
   }
 
   const std::vector<Complex>& surfaces_;
