@@ -13,6 +13,7 @@
 #include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/Criteria_guard_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
+#include <weft/spatial/extract_mesh_3.h>
 #include <weft/spatial/perturb_slivers_3.h>
 #include <weft/spatial/refine_3.h>
 #include <weft/spatial/report_3.h>
@@ -20,6 +21,7 @@
 #include <weft/spatial/seed_creases_3.h>
 #include <weft/spatial/seed_lattice_3.h>
 #include <weft/spatial/smooth_3.h>
+#include <weft/spatial/validate_3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,13 +33,19 @@
 
 namespace weft {
 
-/// The vertices of a mesh that there is already.
+/// The vertices of a mesh that there is already, and what is different from meshing without them.
 template <class K>
 struct Initial_vertices_3
 {
   std::vector<typename K::Point_3> points;  ///< distinct
   std::vector<Vertex_location_3> locations; ///< in the oracle's numbers; all its corners are among them
   std::vector<std::size_t> fixed;           ///< those that have to stay where they are
+  /// Whether to go no further where the refined boundary isn't a closed 2-manifold.
+  bool only_manifold = false;
+  /// Shapes asked for once the vertices are smoothed, as `Criteria_3` has them; 0: only those that the criteria ask
+  /// for.
+  double facet_shape_in_the_end = 0, cell_shape_in_the_end = 0;
+  double smoothing_share = 1; ///< most of the time left that smoothing may take
 };
 
 /// Meshes the domain behind an oracle; see `make_mesh_3()`.
@@ -75,6 +83,7 @@ public:
     if (go_on && !initial_ && options_.lattice && criteria_.size.is_constant()) insert_lattice();
     begin_stage("interior", Stage::refinement);
     go_on = go_on && refine(1, true);
+    if (go_on && initial_ && initial_->only_manifold) go_on = check_manifold_3(tetrahedral_mesh(mesh_)).ok();
     go_on = go_on && optimise();
     begin_stage("perturbation", Stage::polishing);
     // Given vertices may be beyond what criteria can mend; their slivers are wanted gone all the same.
@@ -243,6 +252,10 @@ private:
     report_.refined_smallest_dihedral = smallest_dihedral();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     begin_stage("refinement after smoothing", Stage::refinement);
+    if (initial_) {
+      criteria_.facet_shape = tighter(criteria_.facet_shape, initial_->facet_shape_in_the_end);
+      criteria_.cell_shape = tighter(criteria_.cell_shape, initial_->cell_shape_in_the_end);
+    }
     if (is_good()) return true; // refinement also prevents: it would mirror vertices at acute edges
     guard_.reset();
     return refine(1, true);
@@ -254,6 +267,9 @@ private:
     if (!guard_) guard_.emplace(mesh_, criteria_);
     return *guard_;
   }
+
+  /// The smaller of two bounds, of which 0 is none.
+  static double tighter(double a, double b) { return a == 0 || b == 0 ? a + b : (std::min)(a, b); }
 
   bool coarsen()
   {
@@ -269,11 +285,14 @@ private:
   bool smooth()
   {
     begin_stage("smoothing", Stage::relaxation);
-    if (options_.smoothing_sweeps == 0) return true;
+    const double share = initial_ ? initial_->smoothing_share : 1;
+    // A sweep isn't broken off: it takes about twice the time of all that came before it.
+    const bool fits = share == 1 || 2 * timer_.seconds() < share * time_left();
+    if (options_.smoothing_sweeps == 0 || !fits) return true;
     Smooth_options_3 options;
     options.max_sweeps = options_.smoothing_sweeps;
     options.threads = options_.threads;
-    options.time_limit = time_left();
+    options.time_limit = share * time_left();
     options.go_on = [this] { return goes_on(); };
     const Smooth_report_3 result = smooth_3(mesh_, guard(), options);
     report_.smoothing_sweeps += result.sweeps;
@@ -377,7 +396,7 @@ private:
   static constexpr double as_far_as_it_goes = 70.53; ///< no angle to reach, so that time may well end the run
 
   const Oracle& oracle_;
-  const Criteria_3<Kernel>& criteria_;
+  Criteria_3<Kernel> criteria_;
   const Mesh_options_3& options_;
   const Initial_vertices_3<Kernel>* initial_ = nullptr;
   std::vector<Point> interior_; ///< of the initial vertices, those to be inserted later
