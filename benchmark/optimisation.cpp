@@ -191,8 +191,8 @@ void print_sweeps(const std::string& input, const Sweep_costs& r)
 
 std::vector<std::string> perturb_head()
 {
-  return {"input",    "before",  "combined", "random",     "s combined", "s random", "random / combined",
-          "by ∇R² %", "by ∇V %", "random %", "insertions", "removals"};
+  return {"input", "before",   "combined", "random",   "s combined", "s random", "random / combined",
+          "±",     "by ∇R² %", "by ∇V %",  "random %", "insertions", "removals"};
 }
 
 void print_perturbation(const Perturb_run& r)
@@ -204,9 +204,9 @@ void print_perturbation(const Perturb_run& r)
   }
   const double moves = std::max(1., c.by_radius + c.by_volume + c.by_chance);
   std::cout << markdown_row({r.input, text(c.before, 1), text(c.after, 1), text(o.after, 1), seconds_text(c.seconds),
-                             seconds_text(o.seconds), text(o.seconds / c.seconds, 2), percent(c.by_radius / moves),
-                             percent(c.by_volume / moves), percent(c.by_chance / moves), count(c.insertions),
-                             count(c.removals)})
+                             seconds_text(o.seconds), text(r.ratio(), 2), text(r.standard_error(), 2),
+                             percent(c.by_radius / moves), percent(c.by_volume / moves), percent(c.by_chance / moves),
+                             count(c.insertions), count(c.removals)})
             << std::flush;
 }
 

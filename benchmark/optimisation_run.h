@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -274,10 +275,33 @@ inline Sweep_costs sweep_costs(const Spatial_domain& domain, const Bounds& bound
 
 // ---- Perturbation
 
+/// Sums over several seeds.
 struct Perturb_cost
 {
-  double before = -1, after = -1, seconds = 0; ///< degrees, of the worst seed; user time
+  double before = -1, after = 180, seconds = 0; ///< degrees, of the worst seed; user time
+  double squared_seconds = 0;
   double by_radius = 0, by_volume = 0, by_chance = 0, insertions = 0, removals = 0;
+  char failure[200] = "";
+
+  void add(const Perturb_cost& other)
+  {
+    before = other.before;
+    after = std::min(after, other.after);
+    seconds += other.seconds;
+    squared_seconds += other.seconds * other.seconds;
+    by_radius += other.by_radius;
+    by_volume += other.by_volume;
+    by_chance += other.by_chance;
+    insertions += other.insertions;
+    removals += other.removals;
+    if (other.failure[0]) std::copy(std::begin(other.failure), std::end(other.failure), failure);
+  }
+};
+
+/// Both ways, for every seed from the same mesh one after the other, so that what else runs on the machine slows both.
+struct Perturb_costs
+{
+  Perturb_cost combined, random;
   char failure[200] = "";
 };
 
@@ -285,45 +309,62 @@ struct Perturb_run
 {
   std::string input;
   Perturb_cost combined, random;
+
+  double ratio() const { return random.seconds / combined.seconds; }
+  /// Of the ratio, from how the times of the seeds scatter.
+  double standard_error() const
+  {
+    const auto variance = [](const Perturb_cost& c) { // of the sum, relative
+      return std::max(0., c.squared_seconds / (c.seconds * c.seconds) - 1. / seeds) * seeds / (seeds - 1.);
+    };
+    return ratio() * std::sqrt(variance(combined) + variance(random));
+  }
+
+  /// The last few slivers may take longer than all others, by chance: on anchor the time of a seed scatters by half,
+  /// that of five by a fifth, which says nothing yet.
+  static constexpr unsigned seeds = 20;
 };
 
-/// Optimises but for the perturbation, then perturbs; the sum of several seeds, since the last few slivers may take
-/// longer than all others, by chance.
-inline Perturb_cost perturb_cost(const Spatial_domain& domain, const Bounds& bounds, double target, double limit,
-                                 weft::Perturb_directions_3 directions)
+/// \param mesh stays as it is: a child process perturbs its own.
+inline Perturb_cost perturb_cost(Weft_mesh& mesh, const weft::Criteria_3<Spatial_kernel>& criteria,
+                                 weft::Perturb_options_3 options, double limit, unsigned time_limit)
 {
   const auto run = [&](Perturb_cost& m) {
+    User_limit(limit).limit(options);
+    const double start = user_seconds();
+    const weft::Perturb_report_3 report = weft::perturb_slivers_3(mesh, criteria, options);
+    m.seconds = user_seconds() - start;
+    m.before = report.before;
+    m.after = report.after;
+    m.by_radius = static_cast<double>(report.by_radius);
+    m.by_volume = static_cast<double>(report.by_volume);
+    m.by_chance = static_cast<double>(report.by_chance);
+    m.insertions = static_cast<double>(report.insertions);
+    m.removals = static_cast<double>(report.removals);
+  };
+  return in_child<Perturb_cost>(run, time_limit);
+}
+
+/// Optimises but for the perturbation, then perturbs to 20 degrees.
+inline Perturb_run perturb_run(const Spatial_domain& domain, const Bounds& bounds, double limit)
+{
+  const auto run = [&](Perturb_costs& m) {
     const auto criteria = weft_criteria(domain.input(), bounds);
     weft::Mesh_options_3 unperturbed;
     unperturbed.min_dihedral_angle = 0;
-    m.after = 180;
-    for (unsigned seed = 0; seed < 5; ++seed) {
-      Weft_mesh mesh = weft::make_mesh_3(domain.oracle(), criteria, unperturbed).mesh;
-      weft::Perturb_options_3 options;
-      options.seed = seed;
-      options.target = target;
-      User_limit(limit).limit(options);
-      options.directions = directions;
-      const double start = user_seconds();
-      const weft::Perturb_report_3 report = weft::perturb_slivers_3(mesh, criteria, options);
-      m.seconds += user_seconds() - start;
-      m.before = report.before;
-      m.after = std::min(m.after, report.after);
-      m.by_radius += static_cast<double>(report.by_radius);
-      m.by_volume += static_cast<double>(report.by_volume);
-      m.by_chance += static_cast<double>(report.by_chance);
-      m.insertions += static_cast<double>(report.insertions);
-      m.removals += static_cast<double>(report.removals);
+    Weft_mesh mesh = weft::make_mesh_3(domain.oracle(), criteria, unperturbed).mesh;
+    weft::Perturb_options_3 options;
+    options.target = 20;
+    for (options.seed = 0; options.seed < Perturb_run::seeds; ++options.seed) {
+      options.directions = weft::Perturb_directions_3::combined;
+      m.combined.add(perturb_cost(mesh, criteria, options, limit, domain.time_limit()));
+      options.directions = weft::Perturb_directions_3::random;
+      m.random.add(perturb_cost(mesh, criteria, options, limit, domain.time_limit()));
     }
   };
-  return in_child<Perturb_cost>(run, domain.time_limit());
-}
-
-inline Perturb_run perturb_run(const Spatial_domain& domain, const Bounds& bounds, double limit)
-{
-  using Directions = weft::Perturb_directions_3;
-  return {domain.input().name, perturb_cost(domain, bounds, 20, limit, Directions::combined),
-          perturb_cost(domain, bounds, 20, limit, Directions::random)};
+  Perturb_costs costs = in_child<Perturb_costs>(run, domain.time_limit());
+  if (costs.failure[0]) std::copy(std::begin(costs.failure), std::end(costs.failure), costs.combined.failure);
+  return {domain.input().name, costs.combined, costs.random};
 }
 
 // ---- As far as it goes
