@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the command-line programs share: options, numbers, interruption, a progress bar, and files that appear complete
-// or not at all.
+// What the command-line programs share: options, numbers, interruption, a progress bar, files that appear complete or
+// not at all, exit statuses and what main() does.
 
 #ifndef WEFT_EXAMPLES_COMMAND_LINE_H
 #define WEFT_EXAMPLES_COMMAND_LINE_H
+
+#include <weft/version.h>
 
 #include <algorithm>
 #include <atomic>
@@ -16,8 +18,10 @@
 #include <ctime>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <limits>
 #include <map>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -376,6 +380,38 @@ private:
   std::vector<std::string> announced_;
   std::vector<std::pair<std::string, std::string>> written_;
 };
+
+// ---- The program
+
+/// Exit statuses.
+enum Status
+{
+  complete = 0,
+  refused = 1,
+  stopped_early = 2
+};
+
+/// What main() does: answers --help and --version, else runs and says what went wrong.
+/// \param help returns the text of --help.
+/// \param run called with the arguments; returns a status.
+template <class Help, class Run>
+int run_program(const std::string& name, const std::vector<Option>& options, const Help& help, const Run& run, int argc,
+                char** argv)
+{
+  try {
+    const Arguments arguments(options, argc, argv);
+    if (arguments.has("--help") || arguments.has("--version")) {
+      std::cout << (arguments.has("--help") ? help() : name + " (weft) " WEFT_VERSION "\n");
+      return complete;
+    }
+    return run(arguments);
+  } catch (const std::bad_alloc&) {
+    complain(name, "out of memory");
+  } catch (const std::exception& error) {
+    complain(name, error.what());
+  }
+  return refused;
+}
 
 } // namespace command_line
 

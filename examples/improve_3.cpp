@@ -12,7 +12,6 @@
 #include <weft/IO/svg_histogram.h>
 #include <weft/IO/write_mesh_3.h>
 #include <weft/optimise_3.h>
-#include <weft/version.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -22,7 +21,6 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,15 +29,10 @@ namespace {
 
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = weft::Tetrahedral_mesh_3<K>;
+using command_line::complete;
 using command_line::Error;
-
-/// Exit statuses.
-enum Status
-{
-  complete = 0,
-  refused = 1,
-  stopped_early = 2
-};
+using command_line::Status;
+using command_line::stopped_early;
 
 // ---- What is asked for
 
@@ -241,17 +234,7 @@ Status run(const Request& request)
 
 int main(int argc, char** argv)
 {
-  try {
-    const command_line::Arguments arguments(known_options, argc, argv);
-    if (arguments.has("--help") || arguments.has("--version")) {
-      std::cout << (arguments.has("--help") ? help() : std::string("improve_3 (weft) " WEFT_VERSION "\n"));
-      return complete;
-    }
-    return run(read_request(arguments));
-  } catch (const std::bad_alloc&) {
-    command_line::complain("improve_3", "out of memory");
-  } catch (const std::exception& error) {
-    command_line::complain("improve_3", error.what());
-  }
-  return refused;
+  return command_line::run_program(
+      "improve_3", known_options, help,
+      [](const command_line::Arguments& arguments) { return run(read_request(arguments)); }, argc, argv);
 }

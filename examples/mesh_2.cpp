@@ -15,14 +15,12 @@
 #include <weft/planar/insert_pslg.h>
 #include <weft/planar/quality_2.h>
 #include <weft/sizing/Lfs_sizing_2.h>
-#include <weft/version.h>
 
 #include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
 #include <map>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,15 +31,10 @@ using K = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Cdt = weft::Mesh_triangulation_2<K>;
 using Pslg = weft::Pslg_2<K>;
 using Tags = weft::Mesh_tags_2<K>;
+using command_line::complete;
 using command_line::Error;
-
-/// Exit statuses.
-enum Status
-{
-  complete = 0,
-  refused = 1,
-  stopped_early = 2
-};
+using command_line::Status;
+using command_line::stopped_early;
 
 // ---- What is asked for
 
@@ -305,17 +298,7 @@ Status run(const Request& request)
 
 int main(int argc, char** argv)
 {
-  try {
-    const command_line::Arguments arguments(known_options, argc, argv);
-    if (arguments.has("--help") || arguments.has("--version")) {
-      std::cout << (arguments.has("--help") ? help() : std::string("mesh_2 (weft) " WEFT_VERSION "\n"));
-      return complete;
-    }
-    return run(read_request(arguments));
-  } catch (const std::bad_alloc&) {
-    command_line::complain("mesh_2", "out of memory");
-  } catch (const std::exception& error) {
-    command_line::complain("mesh_2", error.what());
-  }
-  return refused;
+  return command_line::run_program(
+      "mesh_2", known_options, help,
+      [](const command_line::Arguments& arguments) { return run(read_request(arguments)); }, argc, argv);
 }

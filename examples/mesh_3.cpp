@@ -18,7 +18,6 @@
 #include <weft/spatial/Polyhedral_oracle_3.h>
 #include <weft/spatial/quality_3.h>
 #include <weft/spatial/repair_surface_3.h>
-#include <weft/version.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -29,7 +28,6 @@
 #include <functional>
 #include <iostream>
 #include <limits>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,15 +37,10 @@ namespace {
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Domain = weft::Polyhedral_oracle_3<K>;
 using Mesh = weft::Tetrahedral_mesh_3<K>;
+using command_line::complete;
 using command_line::Error;
-
-/// Exit statuses.
-enum Status
-{
-  complete = 0,
-  refused = 1,
-  stopped_early = 2
-};
+using command_line::Status;
+using command_line::stopped_early;
 
 // ---- What is asked for
 
@@ -310,17 +303,7 @@ Status run(const Request& request)
 
 int main(int argc, char** argv)
 {
-  try {
-    const command_line::Arguments arguments(known_options, argc, argv);
-    if (arguments.has("--help") || arguments.has("--version")) {
-      std::cout << (arguments.has("--help") ? help() : std::string("mesh_3 (weft) " WEFT_VERSION "\n"));
-      return complete;
-    }
-    return run(read_request(arguments));
-  } catch (const std::bad_alloc&) {
-    command_line::complain("mesh_3", "out of memory");
-  } catch (const std::exception& error) {
-    command_line::complain("mesh_3", error.what());
-  }
-  return refused;
+  return command_line::run_program(
+      "mesh_3", known_options, help,
+      [](const command_line::Arguments& arguments) { return run(read_request(arguments)); }, argc, argv);
 }

@@ -12,9 +12,9 @@
 #define WEFT_SPATIAL_DOMAIN_BY_LABELS_3_H
 
 #include <weft/internal/coordinates_3.h>
-#include <weft/internal/interface_seeds_3.h>
 #include <weft/spatial/Crease_network_3.h>
 #include <weft/spatial/Feature_incidence_3.h>
+#include <weft/spatial/interface_seeds_3.h>
 #include <weft/spatial/No_folds_3.h>
 #include <weft/spatial/oracle_hits_3.h>
 

@@ -53,9 +53,7 @@ public:
     labels->reserve(values.size());
     for (const int value : values)
       labels->push_back(static_cast<std::uint16_t>(
-          std::lower_bound(values_.begin() + 1, values_.end(), value) == values_.end() || value == 0
-              ? 0
-              : std::lower_bound(values_.begin() + 1, values_.end(), value) - values_.begin()));
+          value == 0 ? 0 : std::lower_bound(values_.begin() + 1, values_.end(), value) - values_.begin()));
     labels_ = std::move(labels);
   }
 

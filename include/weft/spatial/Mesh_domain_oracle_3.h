@@ -10,7 +10,7 @@
 #define WEFT_SPATIAL_MESH_DOMAIN_ORACLE_3_H
 
 #include <weft/errors.h>
-#include <weft/internal/discretise_curve_3.h>
+#include <weft/spatial/discretise_curve_3.h>
 #include <weft/spatial/Domain_by_labels_3.h>
 #include <weft/spatial/Tetrahedral_mesh_3.h>
 

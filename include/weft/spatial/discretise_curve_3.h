@@ -2,8 +2,8 @@
 //
 // The curves of CGAL's MeshDomainWithFeatures_3, which are known by arc length only, as polylines. Not meant for users.
 
-#ifndef WEFT_INTERNAL_DISCRETISE_CURVE_3_H
-#define WEFT_INTERNAL_DISCRETISE_CURVE_3_H
+#ifndef WEFT_SPATIAL_DISCRETISE_CURVE_3_H
+#define WEFT_SPATIAL_DISCRETISE_CURVE_3_H
 
 #include <weft/spatial/Crease_network_3.h>
 
@@ -62,4 +62,4 @@ Crease_polyline_3<K> discretise_curve_3(const Domain& domain, const typename Dom
 } // namespace internal
 } // namespace weft
 
-#endif // WEFT_INTERNAL_DISCRETISE_CURVE_3_H
+#endif // WEFT_SPATIAL_DISCRETISE_CURVE_3_H

@@ -3,8 +3,8 @@
 // Points on the interfaces of a domain that is known by labels: where the edges of a grid change their label, collected
 // to connected parts. Not meant for users.
 
-#ifndef WEFT_INTERNAL_INTERFACE_SEEDS_3_H
-#define WEFT_INTERNAL_INTERFACE_SEEDS_3_H
+#ifndef WEFT_SPATIAL_INTERFACE_SEEDS_3_H
+#define WEFT_SPATIAL_INTERFACE_SEEDS_3_H
 
 #include <weft/internal/Disjoint_parts.h>
 #include <weft/internal/farthest_points_3.h>
@@ -127,4 +127,4 @@ std::vector<Surface_hit_3<K>> spread_over_parts(const std::vector<std::vector<ty
 } // namespace internal
 } // namespace weft
 
-#endif // WEFT_INTERNAL_INTERFACE_SEEDS_3_H
+#endif // WEFT_SPATIAL_INTERFACE_SEEDS_3_H
