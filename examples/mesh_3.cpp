@@ -35,7 +35,7 @@
 namespace {
 
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Domain = weft::Polyhedral_oracle_3<K>;
+using Complex = weft::Piecewise_smooth_complex_3<K>;
 using Mesh = weft::Tetrahedral_mesh_3<K>;
 using command_line::complete;
 using command_line::Error;
@@ -57,7 +57,8 @@ const std::vector<command_line::Option> known_options = {
     {"--facet-shape", "R", "largest circumradius / shortest edge of a boundary facet, from 1; 0 for any\n(default 2)"},
     {"--cell-shape", "R", "the same for cells (default 2)"},
     {"--sharp-angle", "DEG",
-     "edges of the input are sharp from this angle between the normals of their facets\non; 0 for none (default 60)"},
+     "edges of the input are sharp from this angle between the normals of their facets\non; 0 for none. Without it 60, "
+     "but for creases that end nowhere and are short, and\nthose that keep the criteria from holding"},
     {"--topology", "", "boundary facets keep to one patch between creases, crease edges to one crease"},
     {"--manifold", "", "the boundary of the mesh must be a 2-manifold"},
     {"--min-dihedral", "DEG",
@@ -144,6 +145,8 @@ void read_criteria(const command_line::Arguments& arguments, Request& request)
   if (arguments.has("--min-dihedral")) request.options.min_dihedral_angle = request.min_dihedral;
   if (arguments.has("--no-perturb")) request.options.min_dihedral_angle = 0;
   request.features.sharp_angle = arguments.number("--sharp-angle", 0, 180).value_or(request.features.sharp_angle);
+  request.options.give_up_creases = !arguments.has("--sharp-angle");
+  if (arguments.has("--sharp-angle")) request.features.least_open_crease = 0;
   request.repair = arguments.has("--repair");
 }
 
@@ -186,7 +189,7 @@ Request read_request(const command_line::Arguments& arguments)
 // ---- Input
 
 /// The domain that the input surfaces bound; says what was changed in them.
-Domain read_domain(const Request& request)
+Complex read_domain(const Request& request)
 {
   std::vector<weft::Polygon_soup_3<K>> surfaces;
   for (const std::string& name : request.inputs) surfaces.push_back(weft::IO::read_surface<K>(name));
@@ -196,7 +199,7 @@ Domain read_domain(const Request& request)
                                                   request.repair ? Repair(weft::repair_surface<K>) : Repair());
     for (const std::string& change : complex.changes)
       if (!request.quiet) command_line::complain("mesh_3", request.name() + ": " + change);
-    return Domain(std::move(complex));
+    return complex;
   } catch (const weft::Domain_error& error) {
     throw Error(request.name() + ": " + error.what() + (request.repair ? "" : "; --repair tries to set it right"));
   }
@@ -258,9 +261,10 @@ void write_files(const Request& request, const Mesh& mesh, const weft::Mesh_repo
 // ---- The run
 
 /// Meshes, writes all files and tells how it went.
+/// \param domain an oracle or the complex of a surface. \param box around it.
 /// \param detail size of the smallest details of the input that count, in its units; 0 if all do.
-template <class Oracle>
-Status mesh(const Request& request, const Oracle& domain, double detail)
+template <class Domain>
+Status mesh(const Request& request, const Domain& domain, const CGAL::Bbox_3& box, double detail)
 {
   command_line::Output_files files;
   for (const std::string& filename : request.outputs) files.announce(filename);
@@ -272,7 +276,7 @@ Status mesh(const Request& request, const Oracle& domain, double detail)
   weft::Mesh_options_3 options = request.options;
   options.visitor = std::ref(progress);
   weft::Criteria_3<K> criteria = request.criteria;
-  const double extent = diagonal(domain.bbox());
+  const double extent = diagonal(box);
   criteria.size = request.size.in(extent);
   const double approximation = request.approximation.in(extent);
   criteria.approximation = request.approximation_is_given ? approximation : std::max(approximation, 0.6 * detail);
@@ -293,10 +297,16 @@ Status mesh(const Request& request, const Oracle& domain, double detail)
 
 Status run(const Request& request)
 {
-  if (!weft::IO::is_label_image_filename(request.inputs.front())) return mesh(request, read_domain(request), 0);
+  if (!weft::IO::is_label_image_filename(request.inputs.front())) {
+    const Complex complex = read_domain(request);
+    CGAL::Bbox_3 box;
+    for (const auto& p : complex.points) box += p.bbox();
+    return mesh(request, complex, box, 0);
+  }
   const weft::Label_image_3 image = weft::IO::read_label_image(request.inputs.front());
   const auto& voxel = image.spacing();
-  return mesh(request, weft::image_oracle_3<K>(image), *std::max_element(voxel.begin(), voxel.end()));
+  const auto oracle = weft::image_oracle_3<K>(image);
+  return mesh(request, oracle, oracle.bbox(), *std::max_element(voxel.begin(), voxel.end()));
 }
 
 } // namespace

@@ -7,9 +7,11 @@
 #include "meshing_fixtures_3.h"
 #include "surface_fixtures.h"
 
+#include <weft/IO/read_surface.h>
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/check_criteria_3.h>
 #include <weft/spatial/check_restricted_3.h>
+#include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/features_3.h>
 #include <weft/spatial/hausdorff_3.h>
 #include <weft/spatial/perturb_slivers_3.h>
@@ -436,6 +438,68 @@ TEST_CASE("at acute dihedral angles a run ends by itself, with few vertices, and
         for (const auto& bad : {report.bad_edges, report.bad_facets, report.bad_cells})
           CHECK(bad.at_acute_edge == bad.elements);
       }
+}
+
+TEST_CASE("creases found by angle are given up where only they keep criteria from holding; given ones never are")
+{
+  const auto soup = weft::IO::read_surface<K>(WEFT_TEST_DATA_DIR "/ball_with_sharp_noise.off");
+  const auto complex = weft::piecewise_smooth_complex(soup);
+  const Criteria criteria = criteria_of(0.2, 0.01, false);
+  Options options = refinement();
+  options.give_up_creases = false;
+  const auto with_all = weft::make_mesh_3(complex, criteria, options);
+  CHECK(!with_all.report.ok());
+  CHECK(with_all.report.creases_given_up == 0);
+  options.give_up_creases = true;
+  const auto result = weft::make_mesh_3(complex, criteria, options);
+  CHECK(result.report.ok());
+  CHECK(result.report.creases_given_up > 0);
+  CHECK(result.domain->number_of_creases() < complex.creases.size());
+  CHECK(result.domain->number_of_creases() > 0);
+  check_consistent(result.mesh, result.report);
+
+  auto given = complex;
+  for (auto& crease : given.creases) crease.given = true;
+  const auto kept = weft::make_mesh_3(given, criteria, options);
+  CHECK(kept.report.creases_given_up == 0);
+  CHECK(same(weft::tetrahedral_mesh(kept.mesh), weft::tetrahedral_mesh(with_all.mesh)));
+}
+
+TEST_CASE("giving up creases that isn't enough leaves the mesh with all of them")
+{
+  const auto surface = surfaces::wedge(8);
+  const auto complex = weft::piecewise_smooth_complex(surface.points, surface.triangles, {});
+  const auto result = weft::make_mesh_3(complex, criteria_of(0.2, 0.01), refinement());
+  CHECK(!result.report.ok());
+  CHECK(result.report.creases_given_up == 0);
+  CHECK(result.domain->number_of_creases() == complex.creases.size());
+}
+
+TEST_CASE("slivers are perturbed away beside what the input's angles make impossible")
+{
+  const Oracle oracle = oracle_of(surfaces::wedge(8));
+  const Criteria criteria = criteria_of(0.1, 0.01);
+  Options options;
+  const auto slivers = [](const Mesh& mesh) { // that don't touch the acute edge, the z axis
+    std::size_t n = 0;
+    for (const auto& c : mesh.cells) {
+      const auto at_edge = [&](std::size_t v) { return std::hypot(mesh.points[v].x(), mesh.points[v].y()) < 0.5; };
+      if (std::any_of(c.begin(), c.end(), at_edge)) continue;
+      const auto x = weft::cosines_of_extreme_dihedrals(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]],
+                                                        mesh.points[c[3]]);
+      n += weft::degrees_of_cosine(x.smallest) < 12;
+    }
+    return n;
+  };
+  options.min_dihedral_angle = 0;
+  const auto [plain, before] = weft::make_mesh_3(oracle, criteria, options);
+  options.min_dihedral_angle = 12;
+  const auto [perturbed, after] = weft::make_mesh_3(oracle, criteria, options);
+  REQUIRE(before.bad() > 0);
+  CHECK(after.bad() <= before.bad());
+  CHECK(slivers(weft::tetrahedral_mesh(plain)) > 0);
+  CHECK(slivers(weft::tetrahedral_mesh(perturbed)) * 4 <= slivers(weft::tetrahedral_mesh(plain)));
+  check_consistent(perturbed, after);
 }
 
 TEST_CASE("creases that meet at a sharp angle don't split each other without end")

@@ -164,7 +164,8 @@ void check_complex(const Complex& complex, const std::set<Edge>& sharp)
 
   std::multiset<Edge> covered;
   for (std::size_t c = 0; c < complex.creases.size(); ++c) {
-    const auto& [chain, closed] = complex.creases[c];
+    const auto& chain = complex.creases[c].vertices;
+    const bool closed = complex.creases[c].closed;
     REQUIRE(chain.size() >= (closed ? 3u : 2u));
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) covered.insert(edge_of(chain[i], chain[i + 1]));
     if (closed) covered.insert(edge_of(chain.back(), chain.front()));
@@ -380,6 +381,43 @@ std::string message_of_reading(const std::string& extension, const std::string& 
   return {};
 }
 
+double diagonal(const Surface& s)
+{
+  CGAL::Bbox_3 box;
+  for (const Point& p : s.points) box += p.bbox();
+  return std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+}
+
+void insert_edges(const Complex::Crease& crease, std::set<Edge>& edges)
+{
+  const auto& v = crease.vertices;
+  for (std::size_t i = crease.closed ? 0 : 1; i < v.size(); ++i)
+    edges.insert(edge_of(v[i == 0 ? v.size() - 1 : i - 1], v[i]));
+}
+
+double length(const Complex& complex, const Complex::Crease& crease)
+{
+  std::set<Edge> edges;
+  insert_edges(crease, edges);
+  double sum = 0;
+  for (const auto& [a, b] : edges)
+    sum += std::sqrt(CGAL::to_double(CGAL::squared_distance(complex.points[a], complex.points[b])));
+  return sum;
+}
+
+/// The edges left when those with an end of their own are taken away again and again.
+std::set<Edge> edges_on_cycles(std::set<Edge> edges)
+{
+  for (std::size_t before = 0; before != edges.size();) {
+    before = edges.size();
+    std::map<std::size_t, int> degree;
+    for (const auto& [a, b] : edges) ++degree[a], ++degree[b];
+    for (auto at = edges.begin(); at != edges.end();)
+      at = degree[at->first] == 1 || degree[at->second] == 1 ? edges.erase(at) : std::next(at);
+  }
+  return edges;
+}
+
 } // namespace
 
 // ---- Good surfaces
@@ -412,6 +450,7 @@ TEST_CASE("random surfaces with random sharp edges agree with brute force")
     Surface s = round % 2 ? torus(9, 7) : voxels(cubes);
     weft::Feature_options options(round % 3 == 0 ? 0 : 30 + double(random() % 90));
     options.cusp_angle = 0;
+    options.least_open_crease = 0;
     Complex plain;
     try {
       plain = complex_of(s, 0);
@@ -431,6 +470,46 @@ TEST_CASE("random surfaces with random sharp edges agree with brute force")
     check_complex(complex, sharp);
     CHECK(count_kind(complex, Kind::cusp) == 0);
   }
+}
+
+TEST_CASE("short creases found by angle that end nowhere are dropped, and nothing else is")
+{
+  std::mt19937 random(5);
+  std::size_t dropped = 0, kept = 0;
+  for (int round = 0; round < 30; ++round) {
+    Surface s = sphere(2);
+    for (Point& p : s.points) {
+      const double r = 1 + 0.15 * double(random() % 1000) / 1000;
+      p = Point(r * p.x(), r * p.y(), r * p.z());
+    }
+    weft::Feature_options options(35);
+    options.cusp_angle = 0;
+    options.least_open_crease = 0;
+    const Complex all = complex_of(s, options);
+    for (const auto& crease : all.creases) // some of them given
+      if (random() % 5 == 0) options.sharp_edges.push_back({crease.vertices[0], crease.vertices[1]});
+    options.least_open_crease = 0.3; // of the diagonal of a ball of diameter 2 to 2.3
+    const double least = options.least_open_crease * diagonal(s);
+    const Complex complex = complex_of(s, options);
+
+    std::set<Edge> before, after;
+    for (const auto& crease : all.creases) insert_edges(crease, before);
+    std::map<std::size_t, int> degree;
+    for (const auto& crease : complex.creases) insert_edges(crease, after);
+    for (const auto& [a, b] : after) ++degree[a], ++degree[b];
+    CHECK(std::includes(before.begin(), before.end(), after.begin(), after.end()));
+    for (const auto& [a, b] : options.sharp_edges) CHECK(after.count(edge_of(a, b)) == 1);
+    check_complex(complex, after);
+    for (const auto& crease : complex.creases) {
+      const bool open = degree[crease.vertices.front()] == 1 || degree[crease.vertices.back()] == 1;
+      CHECK((!open || crease.given || length(complex, crease) >= least));
+    }
+    for (const Edge& edge : edges_on_cycles(before)) CHECK(after.count(edge) == 1);
+    dropped += before.size() - after.size();
+    kept += after.size();
+  }
+  CHECK(dropped > 100);
+  CHECK(kept > 100);
 }
 
 TEST_CASE("the angle between normals decides which edges are sharp, the bound included")

@@ -122,6 +122,8 @@ struct Mesh_report_3
   std::size_t bad_vertices = 0; ///< vertices without a topological disk of boundary facets or crease edges
   std::size_t bare_patches = 0; ///< patches without a boundary facet
 
+  std::size_t creases_given_up = 0; ///< that were found by angle, since criteria couldn't hold with them
+
   double refined_smallest_dihedral = 0;  ///< degrees, after refinement; 0 if no optimisation followed
   double smoothed_smallest_dihedral = 0; ///< degrees, before perturbation; 0 if there was none
   std::size_t coarsened = 0;             ///< vertices taken away since no criterion needs them
@@ -167,6 +169,8 @@ inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
       << "dihedral angles " << r.smallest_dihedral << " to " << r.largest_dihedral << " degrees, boundary "
       << (r.manifold ? "a closed manifold" : "not manifold") << "\n"
       << name(r.stop_reason) << "\n";
+  if (r.creases_given_up)
+    out << counted(r.creases_given_up, "crease", "creases") << " found by angle given up: criteria can't hold there\n";
   if (r.coarsened) out << "coarsening: " << counted(r.coarsened, "vertex", "vertices") << " taken away\n";
   if (r.smoothing_sweeps)
     out << "smoothing: from " << r.refined_smallest_dihedral << " degrees, "

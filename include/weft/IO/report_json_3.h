@@ -36,6 +36,7 @@ inline void append_json(Json_text& json, const Mesh_report_3& r)
   json.member("largest_facet_shape", r.largest_facet_shape).member("largest_cell_shape", r.largest_cell_shape);
   json.member("refined_smallest_dihedral", r.refined_smallest_dihedral);
   json.member("smoothed_smallest_dihedral", r.smoothed_smallest_dihedral);
+  json.member("creases_given_up", r.creases_given_up);
   json.member("coarsened", r.coarsened).member("smoothing_sweeps", r.smoothing_sweeps);
   json.member("smoothing_moves", r.smoothing_moves).member("smoothing_locked", r.smoothing_locked);
   json.member("smoothing_rejected", r.smoothing_rejected).member("moved_in_place", r.moved_in_place);

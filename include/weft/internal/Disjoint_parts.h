@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 namespace weft {
@@ -34,6 +35,16 @@ public:
 private:
   std::vector<std::size_t> parent_;
 };
+
+/// Numbers parts by their first element; returns how many there are.
+inline int number_parts(Disjoint_parts& parts, std::size_t n, std::vector<int>& number)
+{
+  number.clear();
+  std::map<std::size_t, int> number_of_part;
+  for (std::size_t t = 0; t < n; ++t)
+    number.push_back(number_of_part.try_emplace(parts.find(t), static_cast<int>(number_of_part.size())).first->second);
+  return static_cast<int>(number_of_part.size());
+}
 
 } // namespace internal
 } // namespace weft

@@ -162,14 +162,14 @@ chain_creases(const Sharp_graph_3& graph, const std::vector<typename Piecewise_s
       for (const std::size_t v : chain) seen[v] = true;
       // Each is followed from both ends and kept from the smaller.
       if (std::make_pair(chain.front(), chain[1]) < std::make_pair(chain.back(), chain[chain.size() - 2]))
-        creases.push_back({std::move(chain), false});
+        creases.push_back({std::move(chain), false, false});
     }
   for (std::size_t v = 0; v < graph.number_of_vertices(); ++v) {
     if (seen[v] || graph.degree(v) == 0) continue;
     auto chain = follow_crease(graph, is_feature, v, graph.end(v, 0));
     chain.pop_back();
     for (const std::size_t w : chain) seen[w] = true;
-    creases.push_back({std::move(chain), true});
+    creases.push_back({std::move(chain), true, false});
   }
   std::sort(creases.begin(), creases.end(), [](const Crease& a, const Crease& b) {
     return std::make_pair(a.vertices[0], a.vertices[1]) < std::make_pair(b.vertices[0], b.vertices[1]);

@@ -7,6 +7,7 @@
 #define WEFT_INTERNAL_INTERFACE_COMPLEX_3_H
 
 #include <weft/internal/crease_chains_3.h>
+#include <weft/internal/derive_features_3.h>
 #include <weft/internal/Disjoint_parts.h>
 #include <weft/internal/surface_complaints_3.h>
 #include <weft/internal/surface_topology_3.h>
@@ -21,22 +22,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace weft {
 namespace internal {
-
-/// Numbers parts by their first element; returns how many there are.
-inline int number_parts(Disjoint_parts& parts, std::size_t n, std::vector<int>& number)
-{
-  std::map<std::size_t, int> number_of_part;
-  for (std::size_t t = 0; t < n; ++t)
-    number.push_back(number_of_part.try_emplace(parts.find(t), static_cast<int>(number_of_part.size())).first->second);
-  return static_cast<int>(number_of_part.size());
-}
 
 /// Builds the complex of a surface of which `sides` tells the subdomains behind and before each triangle. Where
 /// neighbouring triangles have the same, they should be oriented alike. Edges are sharp that are given, are so by their
@@ -55,32 +46,28 @@ Piecewise_smooth_complex_3<K> interface_complex_3(Triangle_surface_3<K> surface,
     const auto& [a, b, c] = surface.triangles[t];
     return unit_facet_normal(surface.points[a], surface.points[b], surface.points[c]);
   };
-  std::vector<std::array<std::size_t, 2>> sharp;
-  Disjoint_parts patches(surface.triangles.size()), shells(surface.triangles.size());
+  Sharp_edges_3 sharp;
+  Disjoint_parts shells(surface.triangles.size());
   for_each_edge(sorted, [&](auto first, auto last) {
     for (auto other = first + 1; other != last; ++other) shells.unite(first->triangle, other->triangle);
     const auto second = first + 1;
-    const bool is_sharp = last - first != 2 || sides[first->triangle] != sides[second->triangle] ||
-                          first->forward == second->forward ||
-                          is_given[first->triangle][static_cast<std::size_t>(first->side)] ||
-                          (by_angle && angle_between(normal(first->triangle), normal(second->triangle)) >=
-                                           options.sharp_angle - angle_tolerance);
-    if (is_sharp)
-      sharp.push_back({first->low, first->high});
-    else
-      patches.unite(first->triangle, second->triangle);
+    const bool meet = last - first != 2 || sides[first->triangle] != sides[second->triangle] ||
+                      first->forward == second->forward ||
+                      is_given[first->triangle][static_cast<std::size_t>(first->side)];
+    const bool is_sharp = meet || (by_angle && angle_between(normal(first->triangle), normal(second->triangle)) >=
+                                                   options.sharp_angle - angle_tolerance);
+    if (is_sharp) sharp.all.push_back({first->low, first->high});
+    if (meet) sharp.given.push_back({first->low, first->high});
   });
   Piecewise_smooth_complex_3<K> result;
-  const Sharp_graph_3 graph(surface.points.size(), sharp);
   const auto given_vertices = given_features(surface, options.tips_and_cusps);
-  result.features = feature_vertices<K>(graph, surface.points, given_vertices, options.cusp_angle);
-  result.creases = chain_creases<K>(graph, result.features);
-  result.number_of_patches = number_parts(patches, surface.triangles.size(), result.patches);
-  result.number_of_shells = number_parts(shells, surface.triangles.size(), result.shells);
-  result.sides.resize(static_cast<std::size_t>(result.number_of_patches));
-  for (std::size_t t = 0; t < sides.size(); ++t) result.sides[static_cast<std::size_t>(result.patches[t])] = sides[t];
   result.points = std::move(surface.points);
   result.triangles = std::move(surface.triangles);
+  drop_short_open_creases<K>(result.points, least_open_crease(result.points, options), sharp);
+  derive_features(sharp, sorted, given_vertices, options.cusp_angle, result);
+  result.number_of_shells = number_parts(shells, result.triangles.size(), result.shells);
+  result.sides.resize(static_cast<std::size_t>(result.number_of_patches));
+  for (std::size_t t = 0; t < sides.size(); ++t) result.sides[static_cast<std::size_t>(result.patches[t])] = sides[t];
   drop_unused_points(result);
   return result;
 }

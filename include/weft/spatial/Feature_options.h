@@ -28,6 +28,11 @@ struct Feature_options
   /// corners of squares and triangles.
   double cusp_angle = 60;
 
+  /// Creases found by angle that end without meeting another one aren't creases if they are shorter than this, in parts
+  /// of the bounding box' diagonal; 0: all are. In scanned surfaces they are noise. Those of parts are longer: rotor
+  /// and anchor_dense, which CGAL comes with, have some of 0.46 and 0.25.
+  double least_open_crease = 0.02;
+
   /// Edges that are sharp whatever their angle: pairs of points.
   std::vector<std::array<std::size_t, 2>> sharp_edges;
 
@@ -38,6 +43,7 @@ struct Feature_options
   void check() const
   {
     if (!(sharp_angle >= 0 && sharp_angle <= 180)) throw Option_error("sharp_angle must be between 0 and 180 degrees");
+    if (!(least_open_crease >= 0)) throw Option_error("least_open_crease must not be negative");
     if (!(cusp_angle >= 0 && cusp_angle <= 180)) throw Option_error("cusp_angle must be between 0 and 180 degrees");
   }
 };

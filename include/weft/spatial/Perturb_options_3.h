@@ -31,6 +31,7 @@ struct Perturb_options_3
   int random_trials = 24;     ///< random places for a vertex
   double insertions = 0.15;   ///< most vertices to add, those removed counted off, in parts of those there are
   double random_reach = 0.35; ///< how far from it, in parts of its shortest edge
+  bool mend_worst = true;     ///< go on with the worst few cells once bounds have risen over the whole mesh
   Perturb_directions_3 directions = Perturb_directions_3::combined;
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
   unsigned seed = 0;

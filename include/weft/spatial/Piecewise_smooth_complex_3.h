@@ -41,6 +41,7 @@ struct Piecewise_smooth_complex_3
     /// cycle: it has that vertex at both ends.
     std::vector<std::size_t> vertices;
     bool closed = false; ///< a cycle without a feature vertex; else both ends are feature vertices
+    bool given = false;  ///< some of its edges were given, or subdomains meet there; not found by angle alone
   };
 
   /// A vertex that stays.

@@ -86,8 +86,7 @@ public:
     if (go_on && initial_ && initial_->only_manifold) go_on = check_manifold_3(tetrahedral_mesh(mesh_)).ok();
     go_on = go_on && optimise();
     begin_stage("perturbation", Stage::polishing);
-    // Given vertices may be beyond what criteria can mend; their slivers are wanted gone all the same.
-    if (go_on && options_.min_dihedral_angle > 0 && (initial_ || is_good())) perturb();
+    if (go_on && options_.min_dihedral_angle > 0) perturb();
     end_stage();
     fill_report(mesh_, criteria_, size_floor(), report_);
     return report_;
@@ -308,7 +307,7 @@ private:
   /// For optimisers: the visitor isn't called again once it has ended the run.
   bool goes_on() { return report_.stop_reason != Stop_reason::cancelled && (visit(0) || stop(Stop_reason::cancelled)); }
 
-  /// Whether nothing is bad. Where something is, the input has angles so small that no perturbation helps beside them.
+  /// Whether nothing is bad.
   bool is_good() const
   {
     Mesh_report_3 now;
@@ -337,6 +336,9 @@ private:
   {
     Perturb_options_3 options;
     options.target = options_.min_dihedral_angle;
+    // Where something is bad, the input has angles so small that the worst cells stay, whatever is done about them.
+    // Given vertices may be beyond what criteria can mend; their slivers are wanted gone all the same.
+    options.mend_worst = initial_ || is_good();
     options.seed = options_.seed + 2;
     options.time_limit = time_left();
     options.go_on = [this](double) { return goes_on(); };

@@ -11,11 +11,13 @@
 #include <weft/internal/check_surface_topology_3.h>
 #include <weft/internal/check_surface_volume_3.h>
 #include <weft/internal/crease_chains_3.h>
+#include <weft/internal/derive_features_3.h>
 #include <weft/internal/triangulate_polygons_3.h>
 #include <weft/spatial/Feature_options.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/Polygon_soup_3.h>
 
+#include <CGAL/Bbox_3.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/Kernel_traits.h>
@@ -24,10 +26,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -59,24 +61,39 @@ inline void mark_given_edges(const std::vector<Surface_side_3>& sides,
   throw Domain_error(counted(missing.size(), what, what) + " of the surface: " + first_few(missing), vertices, {});
 }
 
-/// Which sides of the triangles are sharp.
+/// The edges that are sharp. \pre Every edge has two sides.
 template <class K>
-std::vector<std::array<bool, 3>> sharp_sides(const Triangle_surface_3<K>& surface, const Surface_topology_3& topology,
-                                             const Feature_options& options)
+Sharp_edges_3 sharp_edges(const Triangle_surface_3<K>& surface, const Surface_topology_3& topology,
+                          const Feature_options& options)
 {
-  std::vector<std::array<bool, 3>> is_sharp(surface.triangles.size(), {false, false, false});
-  mark_given_edges(topology.sides, options.sharp_edges, is_sharp);
-  if (options.sharp_angle == 0 || options.sharp_angle == 180) return is_sharp;
+  std::vector<std::array<bool, 3>> is_given(surface.triangles.size(), {false, false, false});
+  mark_given_edges(topology.sides, options.sharp_edges, is_given);
+  const bool by_angle = options.sharp_angle > 0 && options.sharp_angle < 180;
   std::vector<Xyz_3> normals;
-  for (const auto& [a, b, c] : surface.triangles)
-    normals.push_back(unit_facet_normal(surface.points[a], surface.points[b], surface.points[c]));
+  if (by_angle)
+    for (const auto& [a, b, c] : surface.triangles)
+      normals.push_back(unit_facet_normal(surface.points[a], surface.points[b], surface.points[c]));
+  Sharp_edges_3 edges;
   for_each_edge(topology.sides, [&](auto side, auto) {
-    const auto other = side + 1;
-    if (angle_between(normals[side->triangle], normals[other->triangle]) < options.sharp_angle - angle_tolerance)
-      return;
-    for (const auto s : {side, other}) is_sharp[s->triangle][static_cast<std::size_t>(s->side)] = true;
+    const std::array<std::size_t, 2> edge = {side->low, side->high};
+    const bool is_listed = is_given[side->triangle][static_cast<std::size_t>(side->side)];
+    if (is_listed) edges.given.push_back(edge);
+    if (is_listed || (by_angle && angle_between(normals[side->triangle], normals[(side + 1)->triangle]) >=
+                                      options.sharp_angle - angle_tolerance))
+      edges.all.push_back(edge);
   });
-  return is_sharp;
+  return edges;
+}
+
+/// Below this length creases that are open and not given aren't creases.
+template <class Point>
+double least_open_crease(const std::vector<Point>& points, const Feature_options& options)
+{
+  if (options.least_open_crease == 0 || points.empty()) return 0;
+  CGAL::Bbox_3 box;
+  for (const Point& p : points) box += p.bbox();
+  return options.least_open_crease *
+         std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
 }
 
 /// Which points are given as tips or cusps. \throws Domain_error for points that no facet uses.
@@ -124,24 +141,16 @@ template <class K>
 Piecewise_smooth_complex_3<K> derive_complex(Triangle_surface_3<K> surface, const Feature_options& options)
 {
   const Surface_topology_3 topology = check_surface_topology(surface);
-  const auto is_sharp = sharp_sides(surface, topology, options); // before shells are turned: sides would change places
+  Sharp_edges_3 sharp = sharp_edges(surface, topology, options); // before shells are turned: sides would change places
   const auto is_given = given_features(surface, options.tips_and_cusps);
   Piecewise_smooth_complex_3<K> complex;
   complex.changes = check_surface_volume(surface, topology);
-
-  std::vector<std::array<std::size_t, 2>> sharp_edges;
-  for_each_edge(topology.sides, [&](auto side, auto) {
-    if (is_sharp[side->triangle][static_cast<std::size_t>(side->side)]) sharp_edges.push_back({side->low, side->high});
-  });
-  const Sharp_graph_3 graph(surface.points.size(), sharp_edges);
-  complex.features = feature_vertices<K>(graph, surface.points, is_given, options.cusp_angle);
-  complex.creases = chain_creases<K>(graph, complex.features);
-  std::tie(complex.patches, complex.number_of_patches) = surface_components(
-      topology.neighbours, [&](std::size_t t, int side) { return !is_sharp[t][static_cast<std::size_t>(side)]; });
-  complex.shells = topology.shells;
-  complex.number_of_shells = topology.number_of_shells;
   complex.points = std::move(surface.points);
   complex.triangles = std::move(surface.triangles);
+  drop_short_open_creases<K>(complex.points, least_open_crease(complex.points, options), sharp);
+  derive_features(sharp, topology.sides, is_given, options.cusp_angle, complex);
+  complex.shells = topology.shells;
+  complex.number_of_shells = topology.number_of_shells;
   drop_unused_points(complex);
   return complex;
 }

@@ -45,7 +45,7 @@ public:
     look_around(0);
     report_.before = report_.after;
     raise_bounds();
-    mend_worst();
+    if (options_.mend_worst) mend_worst();
     report_.seconds = timer_.seconds();
     return report_;
   }
