@@ -8,6 +8,7 @@ a few digits, so that the files come out the same everywhere.
 
 import math
 import os
+import struct
 import sys
 
 
@@ -315,12 +316,48 @@ def gear():
     return surface
 
 
+# ---- heat_sink.stl: a base with fins
+
+
+def heat_sink():
+    """Triangles of a heat sink of 40 mm by 40 mm by 20 mm: a base of 4 mm with six fins of 2.5 mm on it."""
+    width, depth, base, height, fin, gap, fins = 40.0, 40.0, 4.0, 20.0, 2.5, 5.0, 6
+    feet = [x for k in range(fins) for x in (k * (fin + gap), k * (fin + gap) + fin)]
+    top = []  # the outline above the base, from left to right
+    for left, right in zip(feet[::2], feet[1::2]):
+        top += [(left, base), (left, height), (right, height), (right, base)]
+    outline = [(0.0, 0.0), (width, 0.0)] + top[::-1]
+    cap = [((0.0, 0.0), (right, base), (left, base)) for left, right in zip(feet, feet[1:])]
+    cap.append(((0.0, 0.0), (width, 0.0), (width, base)))
+    for left, right in zip(feet[::2], feet[1::2]):
+        cap += [((left, base), (right, base), (right, height)), ((left, base), (right, height), (left, height))]
+
+    def at(p, y):
+        return p[0], y, p[1]
+
+    triangles = []
+    for a, b, c in cap:  # counterclockwise with z upwards seen from the front, which is y = 0
+        triangles += [(at(a, 0.0), at(b, 0.0), at(c, 0.0)), (at(a, depth), at(c, depth), at(b, depth))]
+    for p, q in zip(outline, outline[1:] + outline[:1]):
+        triangles += [(at(p, 0.0), at(p, depth), at(q, 0.0)), (at(q, 0.0), at(p, depth), at(q, depth))]
+    return triangles
+
+
+def write_stl(filename, title, triangles):
+    """Writes triangles as a binary .stl file; normals are left to readers."""
+    with open(filename, "wb") as out:
+        out.write(struct.pack("<80sI", title.encode("ascii"), len(triangles)))
+        for triangle in triangles:
+            out.write(struct.pack("<12fH", 0, 0, 0, *(c for p in triangle for c in p), 0))
+
+
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
     gulf().write(os.path.join(folder, "gulf.poly"), "A gulf with islands; kilometres.", 3)
     plate().write(os.path.join(folder, "plate.poly"), "A mounting plate; millimetres.", 6)
     airfoil().write(os.path.join(folder, "airfoil.poly"), "A NACA 0012 section in a channel; chords.", 8)
     gear().write(os.path.join(folder, "gear.off"), "A spur gear; millimetres.", 4)
+    write_stl(os.path.join(folder, "heat_sink.stl"), "Heat sink, mm. By make_data.py, GPL-3.0-or-later.", heat_sink())
 
 
 if __name__ == "__main__":

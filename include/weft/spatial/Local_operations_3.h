@@ -158,7 +158,7 @@ public:
   }
 
   /// Puts a new vertex into a cell, into a cavity that grows as long as that helps, and moves it to its best place.
-  /// \param most how much worse than the worst cell unmade the worst one made may be: for whoever undoes it if what
+  /// \param most_loss how much worse than the worst cell unmade the worst one made may be: for whoever undoes it if what
   ///   follows doesn't make up for it.
   bool insert_vertex(int c, const Point& start, double most_loss = 0)
   {

@@ -29,8 +29,8 @@ class Crease_divider_3
 public:
   using Point = typename K::Point_3;
 
+  /// Both have to live as long as this object.
   /// \param points of the polyline; that of a cycle repeats the first at its end.
-  /// \param criteria,points have to live as long as this object.
   Crease_divider_3(const std::vector<Point>& points, const Criteria_3<K>& criteria)
       : points_(points), criteria_(criteria), lengths_(1, 0)
   {

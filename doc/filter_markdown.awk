@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Shows Doxygen pages that are written for GitHub: headings get the identifiers that GitHub gives them, prefixed with
+# the name of the page so that they are unique; links to pages, headings and images of the manual become Doxygen's, links
+# to other files of the repository become text; in README.md the first link to each page makes it a subpage.
+#
+#   awk -f filter_markdown.awk PAGE
+
+BEGIN {
+  page = ARGV[1]
+  sub(/.*\//, "", page)
+  sub(/\.md$/, "", page)
+}
+
+/^```/ { in_code = !in_code; print; next }
+in_code { print; next }
+
+/^# / && !titled {
+  titled = 1
+  print $0 (page == "README" ? "" : " {#" page "}")
+  next
+}
+/^##+ / { print $0 " {#" page "_" slug($0) "}"; next }
+{ print with_links($0) }
+
+# As GitHub: lower case, spaces to hyphens, punctuation left out.
+function slug(heading) {
+  sub(/^#+ +/, "", heading)
+  heading = tolower(heading)
+  gsub(/[^a-z0-9 _-]/, "", heading)
+  gsub(/ /, "-", heading)
+  return heading
+}
+
+function with_links(line,    result, text, target, before, image) {
+  while (match(line, /!?\[[^\]]*\]\([^)]*\)/)) {
+    before = substr(line, 1, RSTART - 1)
+    text = substr(line, RSTART, RLENGTH)
+    line = substr(line, RSTART + RLENGTH)
+    image = text ~ /^!/
+    target = text
+    sub(/^!?\[[^\]]*\]\(/, "", target)
+    sub(/\)$/, "", target)
+    sub(/\]\([^)]*\)$/, "", text)
+    sub(/^!?\[/, "", text)
+    result = result before converted(text, target, image)
+  }
+  return result line
+}
+
+function converted(text, target, image,    file, heading) {
+  if (image) return "![" text "](" target ")"
+  if (target ~ /^[a-z]+:/) return "[" text "](" target ")"
+  file = target
+  sub(/#.*/, "", file)
+  heading = index(target, "#") ? substr(target, index(target, "#") + 1) : ""
+  if (file != "" && (file !~ /^[a-zA-Z0-9_]+\.md$/)) return text
+  sub(/\.md$/, "", file)
+  if (file == "") file = page
+  if (heading != "") return "[" text "](@ref " file "_" heading ")"
+  if (page == "README" && !(file in seen)) {
+    seen[file] = 1
+    return "@subpage " file " \"" text "\""
+  }
+  return "[" text "](@ref " file ")"
+}
