@@ -21,11 +21,12 @@ int main(int argc, char** argv)
   try {
     const auto pslg = weft::IO::read_pslg<K>(filename);
     weft::Mesh_triangulation_2<K> cdt;
-    const auto inserted = weft::insert_pslg(cdt, pslg);
-    weft::mark_domain(cdt, pslg);
-    std::cout << weft::make_mesh_2(cdt, weft::Lfs_sizing_2<K>(pslg, k));
+    const auto inserted = weft::insert_pslg(cdt, pslg); // refuses crossing segments and names them
+    weft::mark_domain(cdt, pslg);                       // holes of the file, else nesting parity
+    const auto report = weft::make_mesh_2(cdt, weft::Lfs_sizing_2<K>(pslg, k));
     weft::IO::write_mesh_2("graded_by_lfs.vtu", cdt, inserted.tags);
     weft::IO::write_mesh_2("graded_by_lfs.svg", cdt);
+    std::cout << report;
   } catch (const weft::Error& error) {
     std::cerr << error.what() << '\n';
     return EXIT_FAILURE;

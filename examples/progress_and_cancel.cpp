@@ -9,11 +9,18 @@
 
 using Cdt = weft::Mesh_triangulation_2<>;
 
+void insert_square(Cdt& cdt, double lower, double upper)
+{
+  const Cdt::Point corners[] = {{lower, lower}, {upper, lower}, {upper, upper}, {lower, upper}};
+  for (int i = 0; i < 4; ++i) cdt.insert_constraint(corners[i], corners[(i + 1) % 4]);
+}
+
 int main()
 {
   Cdt cdt;
-  const Cdt::Point corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  for (int i = 0; i < 4; ++i) cdt.insert_constraint(corners[i], corners[(i + 1) % 4]);
+  insert_square(cdt, 0, 1);
+  insert_square(cdt, 0.25, 0.5); // inside of one outline is the domain, inside of two a hole
+  cdt.insert_constraint(Cdt::Point(0.75, 0.25), Cdt::Point(0.75, 0.75)); // a wall
 
   bool first = true;
   weft::Stage stage{};

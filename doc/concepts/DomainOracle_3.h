@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The concept of a spatial domain, as a class with just what it asks for. Part of the manual, not of the library; the
+// test archetypes_test makes meshes with it, so that nothing the mesher calls can be missing here.
+
+#ifndef WEFT_DOC_DOMAIN_ORACLE_3_H
+#define WEFT_DOC_DOMAIN_ORACLE_3_H
+
+#include <weft/spatial/Feature_incidence_3.h>
+#include <weft/spatial/oracle_hits_3.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace concepts {
+
+/// What a spatial mesher asks about a domain. All functions are const and give the same answer each time. A domain that
+/// knows nothing of folds inherits weft::No_folds_3; one that knows the subdomain of every point inherits
+/// weft::Domain_by_labels_3, which does nearly everything.
+///
+/// Models: weft::Polyhedral_oracle_3, weft::Implicit_oracle_3, weft::Labelled_oracle_3, weft::Mesh_domain_oracle_3.
+/// \tparam Model what this archetype passes everything on to; no part of the concept.
+/// \ingroup concepts
+template <class Model>
+class DomainOracle_3
+{
+public:
+  /// A CGAL kernel with exact predicates whose coordinates are doubles.
+  using Kernel = typename Model::Kernel;
+  using Point = typename Kernel::Point_3;
+  using Surface_hit = weft::Surface_hit_3<Kernel>;
+
+  /// Whether several threads may ask at once; else the mesher asks from one.
+  static constexpr bool is_thread_safe = true;
+  /// Whether locating points is cheaper than finding out from segments where the boundary lies between them. If so
+  /// there must be `intersect(p, q, at_p, at_q, hits)`, too, which gets the subdomains of the ends.
+  static constexpr bool labels_first = false;
+
+  explicit DomainOracle_3(const Model& model) : model_(model) {}
+
+  /// \name The boundary
+  /// @{
+
+  /// Contains the domain.
+  CGAL::Bbox_3 bbox() const { return model_.bbox(); }
+
+  /// The subdomain that a point lies in, from 1; 0 outside.
+  int subdomain(const Point& p) const { return model_.subdomain(p); }
+
+  /// Appends where the segment pq meets the boundary, in order.
+  /// \returns whether p and q lie in different subdomains, without ever contradicting `subdomain()`.
+  bool intersect(const Point& p, const Point& q, std::vector<Surface_hit>& hits) const
+  {
+    return model_.intersect(p, q, hits);
+  }
+
+  /// Nearest point of the boundary; patch -1 if none was found.
+  Surface_hit closest(const Point& p) const { return model_.closest(p); }
+
+  /// Whether the boundary comes as near to p as that.
+  bool is_within(const Point& p, double squared_distance) const { return model_.is_within(p, squared_distance); }
+
+  /// Whether the boundary surely keeps that distance from p.
+  bool is_clear(const Point& p, double radius) const { return model_.is_clear(p, radius); }
+  /// @}
+
+  /// \name Patches
+  /// Parts of the boundary that get facets of their own, numbered from 0.
+  /// @{
+
+  int number_of_patches() const { return model_.number_of_patches(); }
+
+  /// Whether a mesh that lacks the patch lacks something.
+  bool is_expected(int patch) const { return model_.is_expected(patch); }
+
+  /// Nearest point of a patch; patch -1 if none was found.
+  Surface_hit project_on_patch(const Point& p, int patch) const { return model_.project_on_patch(p, patch); }
+
+  /// At most n well-spread points of a patch, off creases and corners.
+  std::vector<Surface_hit> patch_seeds(int patch, std::size_t n) const { return model_.patch_seeds(patch, n); }
+  /// @}
+
+  /// \name Corners and creases
+  /// @{
+
+  /// Points that are vertices of every mesh.
+  std::size_t number_of_corners() const { return model_.number_of_corners(); }
+  Point corner(std::size_t i) const { return model_.corner(i); }
+
+  std::size_t number_of_creases() const { return model_.number_of_creases(); }
+  /// The polyline that a crease is, in order; a closed one doesn't repeat the first point. One that isn't closed begins
+  /// and ends at corners.
+  std::vector<Point> crease_points(int i) const { return model_.crease_points(i); }
+  bool crease_is_closed(int i) const { return model_.crease_is_closed(i); }
+
+  /// Nearest point of a crease.
+  Point project_on_crease(const Point& p, int crease) const { return model_.project_on_crease(p, crease); }
+
+  /// Which creases and patches meet.
+  weft::Feature_incidence_3 incidence() const { return model_.incidence(); }
+  /// @}
+
+  /// \name Folds
+  /// Where the boundary bends without a crease. weft::No_folds_3 has these for domains without.
+  /// @{
+
+  /// Moves a point of a patch to where the boundary bends most within reach; whether there is such a place.
+  bool attract(Point& p, double vertex_reach, double fold_reach, int patch) const
+  {
+    return model_.attract(p, vertex_reach, fold_reach, patch);
+  }
+
+  /// Calls `visit(point)` for each end of a fold in a ball around a point of a patch.
+  template <class Visit>
+  void visit_salient_points(const Point& center, double squared_radius, int patch, const Visit& visit) const
+  {
+    model_.visit_salient_points(center, squared_radius, patch, visit);
+  }
+
+  /// Calls `visit(source, target, whether vertices on it are welcome)` for each ridge that meets such a ball.
+  template <class Visit>
+  void visit_ridges(const Point& center, double squared_radius, int patch, const Visit& visit) const
+  {
+    model_.visit_ridges(center, squared_radius, patch, visit);
+  }
+
+  /// Whether a ball mixes up the two sides of an edge of the boundary with an acute dihedral angle.
+  bool is_at_acute_edge(const Point& center, double radius) const { return model_.is_at_acute_edge(center, radius); }
+
+  /// The mirror image of p on the other side of such an edge; whether there is one.
+  bool mirror_at_acute_edge(const Point& p, const Point& center, double radius, Surface_hit& image) const
+  {
+    return model_.mirror_at_acute_edge(p, center, radius, image);
+  }
+
+  /// Moves the center of a ball to the nearest point of such an edge; whether that is near.
+  bool attract_to_acute_edge(Point& p, double radius) const { return model_.attract_to_acute_edge(p, radius); }
+  /// @}
+
+private:
+  const Model& model_;
+};
+
+} // namespace concepts
+
+#endif // WEFT_DOC_DOMAIN_ORACLE_3_H

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The concepts of things that are called: sizing fields, demands and visitors, as classes with just what is asked for.
+// Part of the manual, not of the library; archetypes_test makes meshes with them.
+
+#ifndef WEFT_DOC_SIZING_FIELD_H
+#define WEFT_DOC_SIZING_FIELD_H
+
+#include <weft/spatial/Criteria_3.h>
+#include <weft/visitor.h>
+
+#include <utility>
+
+namespace concepts {
+
+/// How long edges may be, by place. Functions and lambdas are models.
+///
+/// In the plane it is taken by reference, called for the centroids of triangles, the middles of constrained edges and
+/// points of Voronoi cells, and by several threads if `Mesh_options_2::threads` says so. In space it is copied into
+/// weft::Length_field_3, is called for middles of edges, and stands for any length that may depend on the place, such
+/// as Criteria_3::approximation.
+///
+/// Models: weft::Uniform_sizing, weft::Lfs_sizing_2, weft::Lipschitz_sizing_2, weft::Background_sizing_2,
+/// weft::Cached_sizing_2.
+/// \tparam Point of the kernel of the mesh.
+/// \tparam Model what this archetype passes everything on to; no part of the concept.
+/// \ingroup concepts
+template <class Point, class Model>
+class SizingField
+{
+public:
+  explicit SizingField(Model model) : model_(std::move(model)) {}
+  SizingField(const SizingField&) = default; ///< in space alone
+  SizingField& operator=(const SizingField&) = delete;
+
+  /// The longest edge at a point, in the input's units: a positive finite number, the same each time. For anything else
+  /// meshers throw weft::Option_error.
+  double operator()(const Point& p) const { return model_(p); }
+
+private:
+  Model model_;
+};
+
+/// A demand on boundary facets, for Criteria_3::facet_demand, or on cells, for Criteria_3::cell_demand. Copied; called
+/// by one thread, often for the same element.
+/// \tparam View weft::Facet_view_3 or weft::Cell_view_3.
+/// \tparam Model what this archetype passes everything on to; no part of the concept.
+/// \ingroup concepts
+template <class View, class Model>
+class ElementDemand_3
+{
+public:
+  explicit ElementDemand_3(Model model) : model_(std::move(model)) {}
+  ElementDemand_3(const ElementDemand_3&) = default;
+  ElementDemand_3& operator=(const ElementDemand_3&) = delete;
+
+  /// How bad an element is: above 1 if it has to be refined, the worst first. Small enough elements must be content, or
+  /// the run ends at the size floor.
+  double operator()(const View& element) const { return model_(element); }
+
+private:
+  Model model_;
+};
+
+/// What watches a run, for the `visitor` of all options. Copied; called between steps by the thread that called the
+/// mesher. `std::ref(visitor)` keeps its state where it is.
+/// \tparam Model what this archetype passes everything on to; no part of the concept.
+/// \ingroup concepts
+template <class Model>
+class MeshVisitor
+{
+public:
+  explicit MeshVisitor(Model model) : model_(std::move(model)) {}
+  MeshVisitor(const MeshVisitor&) = default;
+  MeshVisitor& operator=(const MeshVisitor&) = delete;
+
+  /// Whether to go on. After `false` the run ends, with a valid mesh, as Stop_reason::cancelled.
+  bool operator()(const weft::Progress& progress) { return model_(progress); }
+
+private:
+  Model model_;
+};
+
+} // namespace concepts
+
+#endif // WEFT_DOC_SIZING_FIELD_H

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The concept of what weft::smooth_3() is guided by, as a class with just what is asked for. Part of the manual, not of
+// the library; archetypes_test smooths with it.
+
+#ifndef WEFT_DOC_SMOOTHER_3_H
+#define WEFT_DOC_SMOOTHER_3_H
+
+#include <optional>
+#include <vector>
+
+namespace concepts {
+
+/// Where a vertex wants to be, given the cells around it. The driver projects that onto the vertex's patch or crease,
+/// shortens the move, and takes it back where a criterion would be violated.
+///
+/// Models: weft::Natural_odt_3, weft::Odt_3, weft::Lloyd_3.
+/// \tparam Model what this archetype passes everything on to; no part of the concept.
+/// \ingroup concepts
+template <class Model>
+class Smoother_3
+{
+public:
+  /// Whether vertices on patches and creases move, too.
+  static constexpr bool moves_boundary = Model::moves_boundary;
+  /// Whether it lowers the ODT energy: if so, sweeps that raise it are undone where sizes are uniform.
+  static constexpr bool minimises_odt = Model::minimises_odt;
+
+  explicit Smoother_3(const Model& model) : model_(model) {}
+
+  /// Called by several threads at once.
+  /// \tparam Context weft::Smoothing_context_3: the mesh, sizes, masses of cells, crease edges.
+  /// \param v neither a feature vertex nor locked.
+  /// \param star all finite cells around v, those outside of the domain included.
+  /// \returns nothing if the vertex should stay.
+  template <class Context>
+  std::optional<typename Context::Point> operator()(const Context& context, typename Context::Vertex_handle v,
+                                                    const std::vector<typename Context::Cell_handle>& star) const
+  {
+    return model_(context, v, star);
+  }
+
+private:
+  const Model& model_;
+};
+
+} // namespace concepts
+
+#endif // WEFT_DOC_SMOOTHER_3_H
