@@ -2,7 +2,7 @@
 #
 # Shows Doxygen pages that are written for GitHub: headings get the identifiers that GitHub gives them, prefixed with
 # the name of the page so that they are unique; links to pages, headings and images of the manual become Doxygen's, links
-# to other files of the repository become text; in README.md the first link to each page makes it a subpage.
+# to other files of the repository become text; the numbered list in README.md makes pages subpages of it.
 #
 #   awk -f filter_markdown.awk PAGE
 
@@ -21,7 +21,10 @@ in_code { print; next }
   next
 }
 /^##+ / { print $0 " {#" page "_" slug($0) "}"; next }
-{ print with_links($0) }
+{
+  lists_pages = page == "README" && /^[0-9]+\. \[/
+  print with_links($0)
+}
 
 # As GitHub: lower case, spaces to hyphens, punctuation left out.
 function slug(heading) {
@@ -51,6 +54,7 @@ function with_links(line,    result, text, target, before, image) {
 function converted(text, target, image,    file, heading) {
   if (image) return "![" text "](" target ")"
   if (target ~ /^[a-z]+:/) return "[" text "](" target ")"
+  if (target ~ /^concepts\/.*\.h$/) return "@ref concepts::" text " \"" text "\""
   file = target
   sub(/#.*/, "", file)
   heading = index(target, "#") ? substr(target, index(target, "#") + 1) : ""
@@ -58,9 +62,6 @@ function converted(text, target, image,    file, heading) {
   sub(/\.md$/, "", file)
   if (file == "") file = page
   if (heading != "") return "[" text "](@ref " file "_" heading ")"
-  if (page == "README" && !(file in seen)) {
-    seen[file] = 1
-    return "@subpage " file " \"" text "\""
-  }
+  if (lists_pages) return "@subpage " file " \"" text "\""
   return "[" text "](@ref " file ")"
 }

@@ -5,6 +5,8 @@
 
 #include "spatial_fixtures.h"
 
+#include <weft/IO/read_tetrahedral_mesh.h>
+#include <weft/IO/write_mesh_3.h>
 #include <weft/optimise_3.h>
 #include <weft/spatial/assemble_mesh_3.h>
 #include <weft/spatial/merge_surfaces_3.h>
@@ -18,6 +20,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
+#include <iostream>
 #include <map>
 #include <random>
 #include <set>
@@ -139,6 +143,24 @@ TEST_CASE("a ball full of slivers becomes a good mesh whose boundary vertices li
     CHECK(result.points.size() < 1.1 * mesh.points.size());
     CHECK(result.points.size() > 0.8 * mesh.points.size());
   }
+}
+
+TEST_CASE("the manual's lines improve a mesh from a file and write it")
+{
+  weft::IO::write_mesh_3("part.msh", ball());
+
+  const auto input = weft::IO::read_tetrahedral_mesh<K>("part.msh"); // .mesh, .msh, .vtu, .ele; input.notes: left out
+  weft::Improve_options_3 options;
+  options.min_dihedral_angle = 28;            // degrees
+  options.boundary = weft::Boundary_3::slide; // or fixed
+  const auto [mesh, report] = weft::optimise_3(input.mesh, options);
+  std::cout << report; // before and after
+  weft::IO::write_mesh_3("part.vtu", mesh);
+
+  CHECK(report.after.smallest_dihedral.degrees > report.before.smallest_dihedral.degrees);
+  CHECK(weft::IO::read_tetrahedral_mesh<K>("part.vtu").mesh.cells.size() == mesh.cells.size());
+  std::remove("part.msh");
+  std::remove("part.vtu");
 }
 
 TEST_CASE("patches, creases and corners keep their names, and sharp edges found by angle get new ones")

@@ -14,6 +14,10 @@
 #include <cstddef>
 #include <vector>
 
+/// \defgroup concept_classes Concepts
+/// What weft asks of types that you can replace; see \ref concepts "their page".
+
+/// The concepts as classes, which tests mesh with. Not part of the library.
 namespace concepts {
 
 /// What a spatial mesher asks about a domain. All functions are const and give the same answer each time. A domain that
@@ -22,7 +26,7 @@ namespace concepts {
 ///
 /// Models: weft::Polyhedral_oracle_3, weft::Implicit_oracle_3, weft::Labelled_oracle_3, weft::Mesh_domain_oracle_3.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
-/// \ingroup concepts
+/// \ingroup concept_classes
 template <class Model>
 class DomainOracle_3
 {

@@ -24,7 +24,7 @@ namespace concepts {
 /// weft::Cached_sizing_2.
 /// \tparam Point of the kernel of the mesh.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
-/// \ingroup concepts
+/// \ingroup concept_classes
 template <class Point, class Model>
 class SizingField
 {
@@ -45,7 +45,7 @@ private:
 /// by one thread, often for the same element.
 /// \tparam View weft::Facet_view_3 or weft::Cell_view_3.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
-/// \ingroup concepts
+/// \ingroup concept_classes
 template <class View, class Model>
 class ElementDemand_3
 {
@@ -65,7 +65,7 @@ private:
 /// What watches a run, for the `visitor` of all options. Copied; called between steps by the thread that called the
 /// mesher. `std::ref(visitor)` keeps its state where it is.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
-/// \ingroup concepts
+/// \ingroup concept_classes
 template <class Model>
 class MeshVisitor
 {

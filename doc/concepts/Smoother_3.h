@@ -16,7 +16,7 @@ namespace concepts {
 ///
 /// Models: weft::Natural_odt_3, weft::Odt_3, weft::Lloyd_3.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
-/// \ingroup concepts
+/// \ingroup concept_classes
 template <class Model>
 class Smoother_3
 {

@@ -18,7 +18,7 @@ namespace concepts {
 /// CGAL's own bases for vertices in space or in constrained triangulations can be extended by them.
 ///
 /// Models: weft::Mesh_vertex_base_2.
-/// \ingroup concepts
+/// \ingroup concept_classes
 class MeshVertexBase_2
 {
 public:
@@ -39,7 +39,7 @@ private:
 /// addition.
 ///
 /// Models: weft::Mesh_face_base_2.
-/// \ingroup concepts
+/// \ingroup concept_classes
 class MeshFaceBase_2
 {
 public:
@@ -55,7 +55,7 @@ private:
 /// carry time stamps, so that runs don't depend on addresses.
 ///
 /// Models: weft::Mesh_vertex_base_3.
-/// \ingroup concepts
+/// \ingroup concept_classes
 class MeshVertexBase_3
 {
 public:
@@ -77,7 +77,7 @@ private:
 ///
 /// Models: weft::Mesh_cell_base_3.
 /// \tparam Point of the kernel of the mesh.
-/// \ingroup concepts
+/// \ingroup concept_classes
 template <class Point>
 class MeshCellBase_3
 {
