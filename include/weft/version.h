@@ -5,8 +5,11 @@
 #ifndef WEFT_VERSION_H
 #define WEFT_VERSION_H
 
+/// Grows when programs that use weft have to change.
 #define WEFT_VERSION_MAJOR 0
+/// Grows with what is new.
 #define WEFT_VERSION_MINOR 1
+/// Grows with corrections.
 #define WEFT_VERSION_PATCH 0
 
 /// One number that grows with the version, for comparisons in `#if`: 10000 major + 100 minor + patch.

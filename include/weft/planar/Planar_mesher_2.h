@@ -33,6 +33,7 @@
 
 namespace weft {
 
+/// The planar mesher's driver; `make_mesh_2()` and `relax_2()` run it.
 template <class Cdt, class Sizing>
 class Planar_mesher_2
 {

@@ -34,6 +34,7 @@ public:
     int quadrature;    ///< quadrature triangles a Voronoi cell; ignored by uniform sizing
     int most_sweeps;
   };
+  /// What a relaxation did.
   struct Outcome
   {
     std::size_t sweeps = 0;

@@ -263,7 +263,7 @@ private:
   std::vector<Index> grid_; // face to start from
 };
 
-// Gradients of the three hat functions of a face. One with parallel sides to rounding has none.
+/// Gradients of the three hat functions of a face. One with parallel sides to rounding has none.
 template <class K>
 struct Background_sizing_2<K>::Shape
 {

@@ -127,8 +127,8 @@ private:
   double worst_ = 0;
 };
 
-// Splits breadth first, so that a budget that runs out leaves an evenly coarse table. Points are known by their integer
-// coordinates on the finest lattice, half a leaf of the last level.
+/// Splits breadth first, so that a budget that runs out leaves an evenly coarse table. Points are known by their
+/// integer coordinates on the finest lattice, half a leaf of the last level.
 template <class K, class Sizing>
 class Cached_sizing_2<K, Sizing>::Builder
 {

@@ -56,6 +56,7 @@ struct is_uniform_sizing<const Sizing> : is_uniform_sizing<Sizing>
 template <class Sizing>
 struct is_uniform_sizing<Sizing&> : is_uniform_sizing<Sizing>
 {};
+/// The value of `is_uniform_sizing`.
 template <class Sizing>
 inline constexpr bool is_uniform_sizing_v = is_uniform_sizing<Sizing>::value;
 

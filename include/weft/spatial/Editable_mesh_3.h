@@ -31,6 +31,7 @@ public:
 
   static constexpr int none = -1;
 
+  /// A cell and its neighbours.
   struct Cell
   {
     Cell_vertices vertices;

@@ -71,6 +71,7 @@ inline double degrees_of_cosine(double cosine)
   return std::acos((std::max)(-1.0, (std::min)(1.0, cosine))) / internal::radians_per_degree;
 }
 
+/// The cosine of an angle in degrees.
 inline double cosine_of_degrees(double degrees)
 {
   return std::cos(degrees * internal::radians_per_degree);
@@ -84,9 +85,10 @@ bool has_dihedrals_between(Cell_handle c, double cosine_of_least, double cosine_
   return angles.smallest <= cosine_of_least && angles.largest >= cosine_of_most;
 }
 
-/// Dihedral angles of excellent cells, in degrees: vertices among such cells are left alone (Tournois 2009,
+/// Least dihedral angle of excellent cells, in degrees: vertices among such cells are left alone (Tournois 2009,
 /// sec. 3.3.3).
-constexpr double smallest_excellent_dihedral = 45, largest_excellent_dihedral = 95;
+constexpr double smallest_excellent_dihedral = 45,
+                 largest_excellent_dihedral = 95; ///< as above
 
 } // namespace weft
 
