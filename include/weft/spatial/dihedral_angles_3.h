@@ -85,7 +85,7 @@ bool has_dihedrals_between(Cell_handle c, double cosine_of_least, double cosine_
   return angles.smallest <= cosine_of_least && angles.largest >= cosine_of_most;
 }
 
-/// Least dihedral angle of excellent cells, in degrees: vertices among such cells are left alone (Tournois 2009,
+/// Dihedral angles of excellent cells, in degrees: vertices among such cells are left alone (Tournois 2009,
 /// sec. 3.3.3).
 constexpr double smallest_excellent_dihedral = 45,
                  largest_excellent_dihedral = 95; ///< as above

@@ -1,14 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Whether every C++ block of a page is part of a program that is compiled: its lines, but for indentation and empty
-# lines, have to follow each other in one of the sources. Names the blocks that aren't; status 1 if there are any.
+# lines, have to follow each other in one of the sources. And whether every file that a page links to is there. Names
+# what is wrong; status 1 if anything is.
 #
-#   awk -f check_samples.awk SOURCE... PAGE.md...
+#   awk -f check_pages.awk SOURCE... PAGE.md...
 
 function trimmed(line) {
   sub(/^[ \t]+/, "", line)
   sub(/[ \t]+$/, "", line)
   return line
+}
+
+function check_links(line,    target, folder) {
+  folder = FILENAME
+  sub(/[^\/]*$/, "", folder)
+  while (match(line, /\]\([^)#]+/)) {
+    target = substr(line, RSTART + 2, RLENGTH - 2)
+    line = substr(line, RSTART + RLENGTH)
+    if (target ~ /^[a-z]+:/) continue
+    if ((getline ignored < (folder target)) < 0) {
+      print FILENAME ":" FNR ": there is no file " target
+      ++missing
+    }
+    close(folder target)
+  }
 }
 
 FILENAME !~ /\.md$/ {
@@ -30,9 +46,10 @@ in_block && /^```/ {
   }
   next
 }
+!in_block { check_links($0) }
 in_block { line = trimmed($0); if (line != "") block = block "\n" line }
 
 END {
-  print blocks + 0 " blocks, " missing + 0 " of them not compiled"
+  print blocks + 0 " blocks, " missing + 0 " complaints"
   exit missing > 0 || blocks == 0
 }

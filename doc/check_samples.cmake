@@ -1,6 +1,0 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# Runs check_samples.awk on all pages, with the examples and tests as sources.
-
-file(GLOB sources ${SOURCE_DIR}/examples/*.cpp ${SOURCE_DIR}/test/*.cpp)
-file(GLOB pages ${SOURCE_DIR}/README.md ${SOURCE_DIR}/doc/*.md)
-execute_process(COMMAND awk -f ${SOURCE_DIR}/doc/check_samples.awk ${sources} ${pages} COMMAND_ERROR_IS_FATAL ANY)
