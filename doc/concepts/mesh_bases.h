@@ -14,8 +14,7 @@
 
 namespace concepts {
 
-/// Vertices of planar meshes: a model of CGAL's DelaunayMeshVertexBase_2 with these members in addition. One of
-/// CGAL's own bases for vertices in space or in constrained triangulations can be extended by them.
+/// Vertices of planar meshes: a model of CGAL's DelaunayMeshVertexBase_2 with these members in addition.
 ///
 /// Models: weft::Mesh_vertex_base_2.
 /// \ingroup concept_classes
