@@ -29,7 +29,10 @@ template <class K>
 class Medit_reader_3
 {
 public:
-  explicit Medit_reader_3(const std::string& filename) : in_(filename) {}
+  /// \param may_be_planar whether the dimension may be 2: then points have no z.
+  explicit Medit_reader_3(const std::string& filename, bool may_be_planar = false)
+      : in_(filename), may_be_planar_(may_be_planar)
+  {}
 
   Element_soup_3<K> run()
   {
@@ -52,7 +55,8 @@ private:
     if (name == "Dimension") {
       in_.require_word("the dimension");
       const long long dimension = in_.integer("the dimension");
-      if (dimension != 3) in_.fail("the dimension should be 3, not " + std::to_string(dimension));
+      is_planar_ = may_be_planar_ && dimension == 2;
+      if (dimension != 3 && !is_planar_) in_.fail("the dimension should be 3, not " + std::to_string(dimension));
     } else if (name == "Vertices") {
       read_points();
     } else if (name == "Tetrahedra") {
@@ -85,7 +89,14 @@ private:
   {
     const std::size_t n = read_count(8);
     for (std::size_t i = 0; i < n; ++i) {
-      soup_.points.push_back(read_point_3<typename K::Point_3>(in_));
+      if (is_planar_) {
+        in_.require_word("x");
+        const double x = in_.number("x");
+        in_.require_word("y");
+        soup_.points.emplace_back(x, in_.number("y"), 0);
+      } else {
+        soup_.points.push_back(read_point_3<typename K::Point_3>(in_));
+      }
       soup_.point_tags.push_back(read_tag());
     }
   }
@@ -130,6 +141,7 @@ private:
   }
 
   Line_reader in_;
+  bool may_be_planar_, is_planar_ = false;
   Element_soup_3<K> soup_;
   std::set<std::pair<int, std::size_t>> corners_; ///< by their tags, as weft numbers features
 };

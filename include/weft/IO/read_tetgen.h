@@ -12,12 +12,14 @@
 #include <weft/IO/internal/read_elements.h>
 #include <weft/spatial/Element_soup_3.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace weft {
 namespace internal {
@@ -47,26 +49,32 @@ void read_tetgen_points(const std::string& filename, Element_soup_3<K>& soup)
   }
 }
 
-template <class K>
-void read_tetgen_cells(const std::string& filename, Element_soup_3<K>& soup)
+/// Reads an .ele file.
+/// \tparam N number of vertices of an element. \param name of an element. \param n number of points, the first of which
+/// has the number `first`. \param tags gets the first attribute of each element, if there are any.
+template <std::size_t N>
+void read_ele_file(const std::string& filename, const std::string& name, std::size_t first, std::size_t n,
+                   std::vector<std::array<std::size_t, N>>& elements, std::vector<int>& tags,
+                   std::vector<std::size_t>& lines)
 {
   Line_reader in(filename);
-  in.require_line("the number of tetrahedra");
-  const std::size_t n = in.count("the number of tetrahedra", 8);
-  const long long corners = in.at_end_of_line() ? 4 : in.integer("the number of vertices of each");
-  if (corners != 4) in.fail("cells should have 4 vertices, not " + std::to_string(corners));
+  in.require_line("the number of elements");
+  const std::size_t count = in.count("the number of elements", 2 * N);
+  const long long corners = in.at_end_of_line() ? N : in.integer("the number of vertices of each");
+  if (corners != static_cast<long long>(N))
+    in.fail("elements should have " + std::to_string(N) + " vertices, not " + std::to_string(corners));
   const long long attributes = in.at_end_of_line() ? 0 : in.bounded_count("the number of attributes");
-  for (std::size_t i = 0; i < n; ++i) {
-    in.require_line("tetrahedron " + std::to_string(i + 1) + " of " + std::to_string(n));
-    in.integer("the number of the tetrahedron");
-    soup.cell_lines.push_back(in.line());
-    soup.cells.push_back(read_vertices<4>(in, soup.first_number, soup.points.size()));
+  for (std::size_t i = 0; i < count; ++i) {
+    in.require_line(name + " " + std::to_string(i + 1) + " of " + std::to_string(count));
+    in.integer("the number of the " + name);
+    lines.push_back(in.line());
+    elements.push_back(read_vertices<N>(in, first, n));
     for (long long a = 0; a < attributes; ++a) {
       const double tag = in.number("an attribute");
       if (a > 0) continue;
       if (tag != std::floor(tag) || std::abs(tag) > std::numeric_limits<int>::max())
-        in.fail("the attribute of a tetrahedron should be an integer");
-      soup.cell_tags.push_back(static_cast<int>(tag));
+        in.fail("the attribute of a " + name + " should be an integer");
+      tags.push_back(static_cast<int>(tag));
     }
     in.require_end_of_line();
   }
@@ -111,7 +119,8 @@ Imported_mesh_3<K> read_tetgen(const std::string& filename)
   const std::string base = filename.substr(0, filename.rfind('.'));
   Element_soup_3<K> soup;
   weft::internal::read_tetgen_points(base + ".node", soup);
-  weft::internal::read_tetgen_cells(base + ".ele", soup);
+  weft::internal::read_ele_file<4>(base + ".ele", "tetrahedron", soup.first_number, soup.points.size(), soup.cells,
+                                   soup.cell_tags, soup.cell_lines);
   if (weft::internal::is_readable(base + ".face")) weft::internal::read_tetgen_facets(base + ".face", soup);
   return weft::internal::assemble_from_file(base + ".ele", std::move(soup));
 }

@@ -141,6 +141,11 @@ private:
       feature_tags_ = read("feature");
       return;
     }
+    if (arrays_.has("CellData", "domain") && arrays_.has("CellData", "marker")) { // as weft writes planar meshes
+      patches_ = read("domain");
+      creases_ = read("marker");
+      return;
+    }
     for (const char* name :
          {"gmsh:physical", "medit:ref", "CellEntityIds", "MeshDomain", "cell_markers", "material", "region", "label"}) {
       subdomains_ = read(name);

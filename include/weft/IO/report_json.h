@@ -7,6 +7,7 @@
 #define WEFT_IO_REPORT_JSON_H
 
 #include <weft/IO/internal/Text_writer.h>
+#include <weft/planar/Improve_options_2.h>
 #include <weft/planar/quality_2.h>
 #include <weft/report.h>
 
@@ -184,9 +185,9 @@ inline void append_json(Json_text& json, std::string_view name, const Angle_extr
   json.numbers("corners", angle.corners).end();
 }
 
-inline void append_json(Json_text& json, const Quality_2& q)
+inline void append_json(Json_text& json, const Quality_2& q, std::string_view name = "quality")
 {
-  json.begin_object("quality");
+  json.begin_object(name);
   json.member("triangles", q.triangles).member("vertices", q.vertices).member("area", q.area);
   append_json(json, "smallest_angle", q.smallest_angle);
   append_json(json, "largest_angle", q.largest_angle);
@@ -220,6 +221,25 @@ std::string report_json(const Mesh_report_2& report, const Measures&... measures
   json.begin_object();
   append_json(json, report);
   (append_json(json, measures), ...);
+  json.end();
+  return json.text() + "\n";
+}
+
+inline std::string report_json(const Improve_report_2& r)
+{
+  Json_text json;
+  json.begin_object().member("ok", r.ok()).member("stop_reason", name(r.stop_reason));
+  json.member("inverted_before", r.inverted_before).member("inverted_after", r.inverted_after);
+  json.member("below_min_angle", r.below_min_angle).member("at_input_angle", r.at_input_angle);
+  json.member("input_bound", r.input_bound).member("moves", r.moves).member("flips", r.flips);
+  json.begin_array("notes");
+  for (const std::string& note : r.notes) json.begin_object().member("note", note).end();
+  json.end().begin_array("stages");
+  for (const auto& [stage, seconds] : r.stage_seconds)
+    json.begin_object().member("name", stage).member("seconds", seconds).end();
+  json.end();
+  append_json(json, r.before, "before");
+  append_json(json, r.after, "after");
   json.end();
   return json.text() + "\n";
 }
@@ -262,6 +282,13 @@ inline void write_report_json(const std::string& filename, const Mesh_report_2& 
                               const Sizing_quality_2& sizing)
 {
   internal::write_text_file(filename, internal::report_json(report, quality, sizing));
+}
+
+/// Writes what `optimise_2()` did, with the quality of the mesh before and after as members "before" and "after".
+/// \throws File_error if the file can't be written.
+inline void write_report_json(const std::string& filename, const Improve_report_2& report)
+{
+  internal::write_text_file(filename, internal::report_json(report));
 }
 
 } // namespace IO

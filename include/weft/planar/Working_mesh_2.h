@@ -243,9 +243,11 @@ public:
   }
 
   /// Inserts a point in the interior of a constrained edge, which it splits whatever rounding did to it.
-  /// \returns null if the point isn't between the ends or a face beside the edge would not keep its orientation.
+  /// \returns null if the point isn't between the ends or a face beside the edge would not keep its orientation, and
+  /// after `lock_constraints()`.
   Vertex_handle insert_on_constraint(const Point& p, Face_handle f, int i)
   {
+    if (constraints_are_locked_) return Vertex_handle();
     const Face_handle n = f->neighbor(i);
     const Vertex_handle a = f->vertex(Cdt::ccw(i)), b = f->vertex(Cdt::cw(i));
     if (!splits(p, f, i) || !splits(p, n, n->index(f))) return Vertex_handle();
@@ -267,6 +269,9 @@ public:
     relocator_.restore_delaunay_around(v);
     return v;
   }
+
+  /// From now on nothing is inserted on constraints.
+  void lock_constraints() { constraints_are_locked_ = true; }
 
   /// Inserts a free vertex.
   /// \returns null, and does nothing, if the point lies on a vertex or constraint or outside of the domain.
@@ -490,6 +495,7 @@ private:
   const Sizing& sizing_;
   CGAL::Bbox_2 bbox_;
   std::size_t input_vertices_ = 0;
+  bool constraints_are_locked_ = false;
   std::vector<Vertex_handle> frame_;
   std::vector<Vertex_handle> vertices_;
   std::vector<Face_handle> faces_;

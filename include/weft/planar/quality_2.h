@@ -150,8 +150,12 @@ struct Scaled_triangle_2
 
   template <class Face_handle>
   explicit Scaled_triangle_2(Face_handle face)
+      : Scaled_triangle_2(std::array<Xy_2, 3>{xy(face->vertex(0)->point()), xy(face->vertex(1)->point()),
+                                              xy(face->vertex(2)->point())})
+  {}
+
+  explicit Scaled_triangle_2(const std::array<Xy_2, 3>& corners) : corner(corners)
   {
-    for (int i = 0; i < 3; ++i) corner[i] = xy(face->vertex(i)->point());
     double extent = 0;
     for (int i = 0; i < 3; ++i) {
       const auto &from = corner[(i + 1) % 3], &to = corner[(i + 2) % 3];

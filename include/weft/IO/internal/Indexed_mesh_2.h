@@ -8,11 +8,13 @@
 
 #include <weft/planar/Constraint_markers.h>
 #include <weft/planar/mark_domain.h>
+#include <weft/planar/Triangle_mesh_2.h>
 #include <weft/planar/Triangulation_2.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/Unique_hash_map.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <type_traits>
@@ -113,6 +115,39 @@ Indexed_mesh_2 indexed_mesh(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom
         {{index[face->vertex(cdt.ccw(i))], index[face->vertex(cdt.cw(i))]}, segment, tags.constraints.marker(segment)});
   }
   return mesh;
+}
+
+/// The position of a tag among all tags of its kind, in increasing order.
+inline std::size_t rank_of_tag(const std::vector<int>& distinct, int tag)
+{
+  return static_cast<std::size_t>(std::lower_bound(distinct.begin(), distinct.end(), tag) - distinct.begin());
+}
+
+inline std::vector<int> distinct_tags(std::vector<int> tags)
+{
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  return tags;
+}
+
+/// A mesh in arrays, which knows its tags by itself. Edges of one tag are one segment, triangles of one tag one
+/// component.
+template <class K>
+Indexed_mesh_2 indexed_mesh(const Triangle_mesh_2<K>& mesh, const Mesh_tags_2<K>&)
+{
+  Indexed_mesh_2 result;
+  const std::vector<int> regions = distinct_tags(mesh.regions), tags = distinct_tags(mesh.edge_tags);
+  result.number_of_components = static_cast<int>(regions.size());
+  result.has_region_markers = regions.size() > 1 || (!regions.empty() && regions[0] != 0);
+  for (const auto& p : mesh.points) result.points.push_back(xy(p));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    result.triangles.push_back(
+        {mesh.triangles[t], static_cast<int>(rank_of_tag(regions, mesh.regions[t])), mesh.regions[t]});
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    result.edges.push_back(
+        {mesh.edges[e], static_cast<int>(rank_of_tag(tags, mesh.edge_tags[e])), mesh.edge_tags[e]});
+  result.fixed = mesh.corners;
+  return result;
 }
 
 } // namespace internal

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The command-line program that improves planar triangle meshes from anywhere: reads one, raises its smallest angles,
+// writes the mesh, a picture of its angles before and after, and figures. `improve_2 --help` says how to call it.
+
+#include "command_line.h"
+#include "meshing_progress.h"
+
+#include <weft/IO/read_triangle_mesh.h>
+#include <weft/IO/report_json.h>
+#include <weft/IO/svg_histogram.h>
+#include <weft/IO/write_mesh_2.h>
+#include <weft/optimise_2.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using K = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = weft::Triangle_mesh_2<K>;
+using command_line::complete;
+using command_line::Error;
+using command_line::Status;
+using command_line::stopped_early;
+
+// ---- What is asked for
+
+const std::string usage =
+    "usage: improve_2 INPUT [--boundary slide|fixed] [--corner-angle DEG] [--deviation PART] [--min-angle DEG]\n"
+    "                 [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
+    "                 [--time-limit SECONDS] [--quiet]\n";
+
+const std::vector<command_line::Option> known_options = {
+    {"--boundary", "slide|fixed",
+     "slide: vertices on the boundary, between regions and on other edges of the file\nslide along them, come and go; "
+     "fixed: every such edge stays (default slide)"},
+    {"--corner-angle", "DEG",
+     "the boundary has a corner, which stays, where it turns by this angle or more (default\n20); 0: curves stay exactly "
+     "as they are, only vertices of straight parts slide"},
+    {"--deviation", "PART",
+     "how far a curve may get from that of the input where its vertices are respaced, in\nparts of the length of edges "
+     "nearby (default 0.1)"},
+    {"--min-angle", "DEG",
+     "smallest angle to work for, 60 to go as far as possible; without it 35, if it can be\nreached"},
+    {"--output", "FILE",
+     "the mesh; may be given several times. The extension is the format: .vtu (VTK),\n.mesh (Medit), .msh (Gmsh), "
+     ".off, or .svg, a picture coloured by quality",
+     true},
+    {"--report", "FILE.json", "counts, quality before and after, time per stage"},
+    {"--histogram", "FILE.svg", "a picture of the distributions of angles before and after"},
+    {"--seed", "N", "start of every random choice"},
+    {"--threads", "N", "threads to use; the mesh is the same for any number"},
+    {"--time-limit", "SECONDS", "stop early after this time"},
+    {"--quiet", "", "no progress and no report; errors are still said"},
+    {"--help", "", "print this and exit"},
+    {"--version", "", "print the version and exit"}};
+
+std::string help()
+{
+  return usage +
+         "\nRaises the smallest angles of a planar triangle mesh of any origin. INPUT is a .msh (Gmsh 2 or 4.1, ASCII), "
+         ".mesh\n(Medit), .vtu (VTK), .off or .ele (Triangle, with its .node and its .poly or .edge files) file. "
+         "Triangles may be\nslivers, not Delaunay, or inverted. Tags are kept; edges between tags and those of the file "
+         "stay edges.\n\n" +
+         command_line::describe(known_options) +
+         "\nExit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it "
+         "stopped\nearly, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, when the mesh so far "
+         "is written.\n";
+}
+
+struct Request
+{
+  std::string input;
+  weft::Improve_options_2 options;
+  double min_angle = 0; ///< 0: not asked for
+  std::vector<std::string> outputs;
+  std::string histogram, report;
+  bool quiet = false;
+};
+
+void read_filenames(const command_line::Arguments& arguments, Request& request)
+{
+  if (arguments.operands().empty()) throw Error("no input file; improve_2 --help shows the usage");
+  if (arguments.operands().size() > 1) throw Error("more than one input file: '" + arguments.operands()[1] + "'");
+  request.input = arguments.operands().front();
+  request.outputs = arguments.values("--output");
+  for (const std::string& filename : request.outputs)
+    if (!weft::IO::is_mesh_filename(filename))
+      throw Error("--output: '" + filename + "' should end in .vtu, .mesh, .msh, .off or .svg");
+  request.histogram = arguments.filename("--histogram", ".svg");
+  request.report = arguments.filename("--report", ".json");
+}
+
+void read_options(const command_line::Arguments& arguments, Request& request)
+{
+  auto& options = request.options;
+  const std::string boundary = arguments.value("--boundary");
+  if (!boundary.empty() && boundary != "slide" && boundary != "fixed")
+    throw Error("--boundary: '" + boundary + "' is neither slide nor fixed");
+  options.boundary = boundary == "fixed" ? weft::Boundary_2::fixed : weft::Boundary_2::slide;
+  if (boundary == "fixed")
+    for (const char* option : {"--corner-angle", "--deviation"})
+      if (arguments.has(option)) throw Error(std::string(option) + " is for boundaries that slide");
+  options.corner_angle = arguments.number("--corner-angle", 0, 90).value_or(options.corner_angle);
+  options.deviation = arguments.number("--deviation", 0, 1).value_or(options.deviation);
+  request.min_angle = arguments.number("--min-angle", 0, 60).value_or(0);
+  if (arguments.has("--min-angle")) options.min_angle = request.min_angle;
+  options.time_limit = arguments.positive("--time-limit").value_or(options.time_limit);
+  options.seed = arguments.integer<unsigned>("--seed", 0, std::numeric_limits<unsigned>::max()).value_or(options.seed);
+  options.threads = arguments.integer<int>("--threads", 1, 1024).value_or(options.threads);
+}
+
+Request read_request(const command_line::Arguments& arguments)
+{
+  Request request;
+  read_filenames(arguments, request);
+  read_options(arguments, request);
+  request.quiet = arguments.has("--quiet");
+  return request;
+}
+
+// ---- Input and output
+
+/// The mesh of the input; says what was left out of it.
+Mesh read_mesh(const Request& request)
+{
+  auto input = weft::IO::read_triangle_mesh<K>(request.input);
+  for (const std::string& note : input.notes)
+    if (!request.quiet) command_line::complain("improve_2", request.input + ": " + note);
+  return std::move(input.mesh);
+}
+
+/// What keeps the mesh from what was asked for, as one line; empty if nothing does.
+std::string what_is_missing(const Request& request, const weft::Improve_report_2& report)
+{
+  std::string text;
+  const auto append = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  if (report.inverted_after > 0) append(std::to_string(report.inverted_after) + " triangles are still inverted");
+  if (report.below_min_angle > 0 && request.min_angle > 0 && request.min_angle < 60)
+    append("the smallest angle is " +
+           weft::internal::one_decimal(std::floor(10 * report.after.smallest_angle.degrees) / 10) + " degrees, not " +
+           weft::internal::one_decimal(request.min_angle));
+  const auto reason = report.stop_reason;
+  if (reason != weft::Stop_reason::criteria_met && reason != weft::Stop_reason::exhausted)
+    return std::string("stopped early, ") + name(reason) + (text.empty() ? "" : ": ") + text;
+  return text;
+}
+
+void write_files(const Request& request, const Mesh& mesh, const weft::Improve_report_2& report,
+                 command_line::Output_files& files)
+{
+  for (const std::string& filename : request.outputs)
+    files.add(filename, [&](const std::string& name) { weft::IO::write_mesh_2(name, mesh); });
+  if (!request.report.empty())
+    files.add(request.report, [&](const std::string& name) { weft::IO::write_report_json(name, report); });
+  if (!request.histogram.empty())
+    files.add(request.histogram, [&](const std::string& name) {
+      const std::string title = "Angles: " + std::filesystem::path(request.input).filename().string();
+      weft::IO::write_angle_histogram_svg(name, report.after.histogram<weft::Angle_histogram>("after"),
+                                          report.before.histogram<weft::Angle_histogram>("before"), title);
+    });
+  files.commit();
+}
+
+// ---- The run
+
+/// Improves, writes all files and tells how it went.
+Status run(const Request& request)
+{
+  command_line::Output_files files;
+  const Mesh input = read_mesh(request);
+  for (const std::string& filename : request.outputs) files.announce(filename);
+  for (const std::string& filename : {request.histogram, request.report})
+    if (!filename.empty()) files.announce(filename);
+
+  const command_line::Interruption interruption;
+  Meshing_progress progress(!request.quiet, 0.1);
+  weft::Improve_options_2 options = request.options;
+  options.visitor = std::ref(progress);
+  const auto [mesh, report] = [&] {
+    try {
+      return weft::optimise_2(input, options);
+    } catch (const weft::Domain_error& error) {
+      throw Error(request.input + ": " + error.what());
+    }
+  }();
+  progress.bar().clear();
+
+  for (const std::string& note : report.notes)
+    if (!request.quiet) command_line::complain("improve_2", request.input + ": " + note);
+  write_files(request, mesh, report, files);
+  if (!request.quiet) std::cout << report << std::flush;
+  const std::string missing = what_is_missing(request, report);
+  if (!missing.empty()) command_line::complain("improve_2", missing);
+  return missing.empty() ? complete : stopped_early;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  return command_line::run_program(
+      "improve_2", known_options, help,
+      [](const command_line::Arguments& arguments) { return run(read_request(arguments)); }, argc, argv);
+}
