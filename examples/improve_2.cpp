@@ -45,7 +45,8 @@ const std::vector<command_line::Option> known_options = {
      "slide: vertices on the boundary, between regions and on other edges of the file\nslide along them, come and go; "
      "fixed: every such edge stays (default slide)"},
     {"--corner-angle", "DEG",
-     "the boundary has a corner, which stays, where it turns by this angle or more (default\n20); 0: curves stay exactly "
+     "the boundary has a corner, which stays, where it turns by this angle or more (default\n20); 0: curves stay "
+     "exactly "
      "as they are, only vertices of straight parts slide"},
     {"--deviation", "PART",
      "how far a curve may get from that of the input where its vertices are respaced, in\nparts of the length of edges "
@@ -68,9 +69,11 @@ const std::vector<command_line::Option> known_options = {
 std::string help()
 {
   return usage +
-         "\nRaises the smallest angles of a planar triangle mesh of any origin. INPUT is a .msh (Gmsh 2 or 4.1, ASCII), "
+         "\nRaises the smallest angles of a planar triangle mesh of any origin. INPUT is a .msh (Gmsh 2 or 4.1, "
+         "ASCII), "
          ".mesh\n(Medit), .vtu (VTK), .off or .ele (Triangle, with its .node and its .poly or .edge files) file. "
-         "Triangles may be\nslivers, not Delaunay, or inverted. Tags are kept; edges between tags and those of the file "
+         "Triangles may be\nslivers, not Delaunay, or inverted. Tags are kept; edges between tags and those of the "
+         "file "
          "stay edges.\n\n" +
          command_line::describe(known_options) +
          "\nExit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it "

@@ -58,10 +58,10 @@ void require_structure(const Triangle_mesh_2<K>& mesh)
   soup.edge_tags = mesh.edge_tags;
   soup.corners = mesh.corners;
   const Triangle_mesh_2<K> again = assemble_mesh_2(std::move(soup)).mesh;
-  if (again.points.size() != mesh.points.size() || again.triangles != mesh.triangles ||
-      again.regions != mesh.regions || again.edges.size() != mesh.edges.size() ||
-      again.edge_tags != mesh.edge_tags)
-    throw Domain_error("the arrays aren't those of a mesh; assemble_mesh_2() makes one of points and triangles", {}, {});
+  if (again.points.size() != mesh.points.size() || again.triangles != mesh.triangles || again.regions != mesh.regions ||
+      again.edges.size() != mesh.edges.size() || again.edge_tags != mesh.edge_tags)
+    throw Domain_error("the arrays aren't those of a mesh; assemble_mesh_2() makes one of points and triangles", {},
+                       {});
 }
 
 /// The course of `optimise_2()`.
@@ -86,16 +86,15 @@ public:
   Improve_result_2<K> run()
   {
     const Vertex_density_sizing_2<K> sizing = sizes_of_input();
-    bool done = false;
     if (options_.boundary == Boundary_2::fixed) {
-      done = attempt(sizing, outline_2(input_, stays_, 0, true), 0);
+      attempt(sizing, outline_2(input_, stays_, 0, true), 0);
     } else {
       const double angle = options_.corner_angle > 0 ? options_.corner_angle : most_straight;
       const Outline_2 outline = outline_2(input_, stays_, angle, false);
-      if (options_.corner_angle > 0 && options_.deviation > 0) done = attempt(sizing, outline, options_.deviation);
-      if (!done) done = attempt(sizing, outline, 0);
+      if (options_.corner_angle > 0 && options_.deviation > 0) attempt(sizing, outline, options_.deviation);
+      if (!is_good()) attempt(sizing, outline, 0);
     }
-    return finish(done);
+    return finish();
   }
 
 private:
@@ -125,7 +124,8 @@ private:
   Vertex_density_sizing_2<K> sizes_of_input() const
   {
     Triangulated_outline_2<K> outline;
-    outline.graph = outline_graph_2(input_, outline_2(input_, stays_, 0, true), stays_, [](const auto&) { return 1; }, 0);
+    outline.graph = outline_graph_2(
+        input_, outline_2(input_, stays_, 0, true), stays_, [](const auto&) { return 1; }, 0);
     const std::size_t n = outline.graph.segments.size();
     std::size_t contradicting = n;
     try {
@@ -142,7 +142,7 @@ private:
     const auto inside = free_vertices();
     outline.triangulation.insert(inside.begin(), inside.end());
     outline.mark();
-    return {outline.triangulation, longest_edge, growth};
+    return {outline.triangulation, longest_edge, growth, options_.boundary == Boundary_2::fixed};
   }
 
   static std::string ends_of(const Outline_graph_2<K>& graph, std::size_t segment)
@@ -164,62 +164,75 @@ private:
                        edges);
   }
 
-  /// Improves with the outline as given. Returns whether that led to something that isn't worse than the input.
-  bool attempt(const Vertex_density_sizing_2<K>& sizing, const Outline_2& chains, double deviation)
+  /// Improves with the outline as given, with relaxation first and, where that doesn't do, without.
+  /// \param deviation of curves; where there are none to respace, this is left to another attempt.
+  void attempt(const Vertex_density_sizing_2<K>& sizing, const Outline_2& chains, double deviation)
   {
-    Triangulated_outline_2<K> outline;
-    outline.graph =
-        outline_graph_2(input_, chains, stays_, [&](const auto& p) { return sizing.mean(p); }, deviation);
-    if (deviation > 0 && outline.graph.respaced == 0) return false; // left to the next attempt
-    try {
-      if (outline.triangulate() < outline.graph.segments.size()) return false;
-    } catch (const Domain_error&) {
-      if (deviation > 0) return false; // curves that came too close to others
-      throw;
-    }
-    typename Batch_refiner_2<typename Mesh_improver_2<K>::Mesh>::Sharp_triangles sharp;
-    {
+    for (const bool relaxes : {true, false}) {
+      Triangulated_outline_2<K> outline;
+      outline.graph = outline_graph_2(
+          input_, chains, stays_, [&](const auto& p) { return sizing.mean(p); }, deviation);
+      if (deviation > 0 && outline.graph.respaced == 0) return;
+      try {
+        if (outline.triangulate() < outline.graph.segments.size()) return;
+      } catch (const Domain_error&) {
+        if (deviation > 0) return; // curves that came too close to others
+        throw;
+      }
       Mesh_improver_2<K> improver(outline, free_vertices(), sizing, options_, run_, report_);
-      improver.run();
-      sharp = improver.sharp_triangles();
+      improver.run(relaxes);
+      const auto sharp = improver.sharp_triangles();
       improver.finish();
+      offer(outline, sharp.mendable, sharp.given);
+      if (is_good() || run_.is_stopped()) return;
     }
-    Mesh mesh = extract_mesh_2(outline, input_.corners);
-    const Quality_2 quality = measure_quality_2(mesh);
-    if (is_worse(mesh, quality)) return false;
-    result_.mesh = std::move(mesh);
-    result_.report.after = quality;
-    result_.report.input_bound = (std::min)(60.0, smallest_constraint_angle_2(outline.triangulation));
-    result_.report.below_min_angle = sharp.mendable;
-    result_.report.at_input_angle = sharp.given;
-    return true;
   }
 
-  /// Whether there are more inverted triangles than in the input, or as many and a smaller angle.
-  bool is_worse(const Mesh& mesh, const Quality_2& quality) const
+  /// Takes a mesh if it is better than what there is.
+  void offer(const Triangulated_outline_2<K>& outline, std::size_t below_min_angle, std::size_t at_input_angle)
   {
-    if (mesh.triangles.empty()) return true;
+    Mesh mesh = extract_mesh_2(outline, input_.corners);
+    if (mesh.triangles.empty()) return;
+    const Quality_2 quality = measure_quality_2(mesh);
     const std::size_t inverted = count_inverted(mesh);
-    if (inverted != result_.report.inverted_before) return inverted > result_.report.inverted_before;
-    // Angles of the outline stay up to rounding.
-    constexpr double rounding = 1e-9;
-    return quality.smallest_angle.degrees < result_.report.before.smallest_angle.degrees - rounding;
+    Improve_report_2& report = result_.report;
+    if (is_worse(quality, inverted, report.before, report.inverted_before)) return;
+    if (found_ &&
+        (is_worse(quality, inverted, report.after, report.inverted_after) || below_min_angle > report.below_min_angle))
+      return;
+    found_ = true;
+    result_.mesh = std::move(mesh);
+    report.after = quality;
+    report.inverted_after = inverted;
+    report.input_bound = (std::min)(60.0, smallest_constraint_angle_2(outline.triangulation));
+    report.below_min_angle = below_min_angle;
+    report.at_input_angle = at_input_angle;
   }
 
-  Improve_result_2<K> finish(bool done)
+  bool is_good() const { return found_ && result_.report.below_min_angle == 0; }
+
+  /// Whether there are more inverted triangles, or as many and a smaller angle.
+  static bool is_worse(const Quality_2& a, std::size_t inverted_in_a, const Quality_2& b, std::size_t inverted_in_b)
+  {
+    if (inverted_in_a != inverted_in_b) return inverted_in_a > inverted_in_b;
+    constexpr double rounding = 1e-9; // angles of the outline stay up to that
+    return a.smallest_angle.degrees < b.smallest_angle.degrees - rounding;
+  }
+
+  Improve_result_2<K> finish()
   {
     Improve_report_2& report = result_.report;
     report.moves = report_.moves + report_.polished;
     report.flips = report_.flips;
     report.stage_seconds = report_.stage_seconds;
     report.stop_reason = report_.stop_reason;
-    if (!done) {
+    if (!found_) {
       report.notes.emplace_back("nothing better was found: the mesh is as it was");
       result_.mesh = input_;
       report.after = report.before;
+      report.inverted_after = report.inverted_before;
       for (const auto& t : input_.triangles) report.below_min_angle += smallest_angle(t) < options_.min_angle;
     }
-    report.inverted_after = count_inverted(result_.mesh);
     if (report.stop_reason == Stop_reason::criteria_met && report.below_min_angle > 0)
       report.stop_reason = Stop_reason::exhausted;
     return std::move(result_);
@@ -239,6 +252,7 @@ private:
   Mesh_run_2 run_;
   Mesh_report_2 report_;
   Improve_result_2<K> result_;
+  bool found_ = false; ///< whether the result has a mesh
 };
 
 } // namespace internal
@@ -249,7 +263,8 @@ private:
 /// the outline that stay come first, in the order that they had. Tags of regions and edges are kept.
 /// \param mesh from a reader, `triangle_mesh_2()` or `assemble_mesh_2()`; triangles may be slivers, not Delaunay, or
 ///   inverted.
-/// \throws Option_error for options out of range; Domain_error if the arrays aren't a mesh, edges of the outline cross or overlap, or parts of the
+/// \throws Option_error for options out of range; Domain_error if the arrays aren't a mesh, edges of the outline cross
+/// or overlap, or parts of the
 ///   mesh lie on each other, with the vertices to blame.
 template <class K>
 Improve_result_2<K> optimise_2(const Triangle_mesh_2<K>& mesh, const Improve_options_2& options = Improve_options_2())

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Reads labelled images through CGAL's ImageIO: INRIMAGE (.inr, .inr.gz if CGAL_USE_ZLIB is defined and zlib linked)
-// and Analyze or NIfTI-like pairs (.hdr and .img).
+// Reads labelled images: through CGAL's ImageIO INRIMAGE (.inr, .inr.gz if CGAL_USE_ZLIB is defined and zlib linked)
+// and Analyze (.hdr and .img); through the NIfTI project's niftiio NIfTI-1 (.nii, .nii.gz, if WEFT_LINKED_WITH_NIFTI is
+// defined and niftiio linked, Debian's package libnifti-dev). What isn't linked is refused when such a file comes.
 
 #ifndef WEFT_IO_READ_LABEL_IMAGE_H
 #define WEFT_IO_READ_LABEL_IMAGE_H
 
 #include <weft/errors.h>
 #include <weft/IO/internal/extension.h>
+#include <weft/IO/internal/label_values.h>
+#include <weft/IO/internal/nifti_image.h>
 #include <weft/spatial/Label_image_3.h>
 
 #include <CGAL/Image_3.h>
 
-#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <string>
@@ -26,15 +28,22 @@ inline bool is_label_image_filename(const std::string& filename)
 {
   const std::string type = weft::internal::extension(filename);
   if (type == "gz") return is_label_image_filename(filename.substr(0, filename.size() - 3));
-  return type == "inr" || type == "hdr";
+  return type == "inr" || type == "hdr" || type == "nii";
 }
 
-/// Reads an image whose voxels are integers, one component each.
-/// \throws File_error if the file is missing or malformed, or its voxels aren't integers.
+/// Reads an image whose voxels are integers, of whatever type, one component each. NIfTI images are placed where their
+/// header says, as far as their axes are those of the scanner or reversed; others keep their own axes, from 0 on: there
+/// lengths are right, places and directions aren't.
+/// \throws File_error if the file is missing or malformed, its voxels aren't integers, or the library for it isn't
+///   linked.
 /// \throws Domain_error if it has no labels or too many.
 inline Label_image_3 read_label_image(const std::string& filename)
 {
   if (!std::ifstream(filename)) throw File_error(filename, 0, "can't be opened"); // CGAL would print
+  const std::string type = weft::internal::extension(filename);
+  const bool is_nifti =
+      (type == "gz" ? weft::internal::extension(filename.substr(0, filename.size() - 3)) : type) == "nii";
+  if (is_nifti) return weft::internal::read_nifti(filename);
   CGAL::Image_3 image;
   if (!image.read(filename)) throw File_error(filename, 0, "isn't an image that can be read");
   const std::size_t nx = image.xdim(), ny = image.ydim(), nz = image.zdim();
@@ -44,12 +53,8 @@ inline Label_image_3 read_label_image(const std::string& filename)
   values.reserve(nx * ny * nz);
   for (std::size_t z = 0; z < nz; ++z)
     for (std::size_t y = 0; y < ny; ++y)
-      for (std::size_t x = 0; x < nx; ++x) {
-        const double value = image.value(x, y, z);
-        if (!(std::abs(value) < 2e9) || value != std::floor(value))
-          throw File_error(filename, 0, "has voxels that aren't integers");
-        values.push_back(static_cast<int>(value));
-      }
+      for (std::size_t x = 0; x < nx; ++x)
+        values.push_back(weft::internal::label_value(filename, image.value(x, y, z)));
   return Label_image_3({{nx, ny, nz}}, {{image.vx(), image.vy(), image.vz()}}, {{image.tx(), image.ty(), image.tz()}},
                        values);
 }

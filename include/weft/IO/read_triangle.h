@@ -63,8 +63,7 @@ Imported_mesh_2<K> read_triangle(const std::string& filename)
                                    soup.triangle_tags, soup.triangle_lines);
   if (weft::internal::is_readable(base + ".poly")) {
     Pslg_2<K> graph = read_poly<K>(base + ".poly");
-    if (graph.points != soup.points)
-      throw File_error(base + ".poly", 0, "the points aren't those of the .node file");
+    if (graph.points != soup.points) throw File_error(base + ".poly", 0, "the points aren't those of the .node file");
     soup.edges = std::move(graph.segments);
     soup.edge_tags = std::move(graph.segment_markers);
   } else if (weft::internal::is_readable(base + ".edge")) {

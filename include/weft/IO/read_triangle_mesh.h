@@ -33,7 +33,8 @@ Element_soup_2<K> read_planar_off(const std::string& filename)
   for (std::size_t f = 0; f < polygons.polygons.size(); ++f) {
     const auto& p = polygons.polygons[f];
     if (p.size() != 3)
-      throw File_error(filename, 0, "facet " + std::to_string(f) + " has " + std::to_string(p.size()) + " corners, not 3");
+      throw File_error(filename, 0,
+                       "facet " + std::to_string(f) + " has " + std::to_string(p.size()) + " corners, not 3");
     soup.triangles.push_back({p[0], p[1], p[2]});
   }
   return soup;

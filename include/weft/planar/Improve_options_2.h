@@ -42,6 +42,9 @@ struct Improve_options_2
   /// nearby.
   double deviation = 0.1;
 
+  /// How many vertices may be added where angles can't be reached otherwise, in parts of those that there are; 20 may
+  /// in any case.
+  double growth = 0.25;
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
   unsigned seed = 0;                                           ///< start of every random choice
   int threads = 1; ///< threads to use where oneTBB is linked; never changes the result
@@ -56,6 +59,7 @@ struct Improve_options_2
     require(min_angle >= 0 && min_angle <= 60, "min_angle must lie in [0, 60] degrees");
     require(corner_angle >= 0 && corner_angle <= 90, "corner_angle must lie in [0, 90] degrees");
     require(deviation >= 0 && deviation <= 1, "deviation must lie in [0, 1]");
+    require(growth >= 0, "growth must not be negative");
     require(time_limit >= 0, "time_limit must not be negative");
     require(threads > 0, "threads must be positive");
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Improves a planar mesh that somebody else made: its outline becomes a planar straight line graph, its vertices are put
-// back into a constrained Delaunay triangulation of that, whatever the old triangles were, and then they are relaxed
-// (Tournois 2009, sec. 2.2.2), polished, and where that isn't enough a few are inserted, removed and shaken. Sizes are
-// those that the vertices have, read off the triangulation. `optimise_2()` is the way to call it.
+// Improves a planar mesh that somebody else made: its outline becomes a planar straight line graph, its vertices are
+// put back into a constrained Delaunay triangulation of that, whatever the old triangles were, and then they are
+// relaxed (Tournois 2009, sec. 2.2.2), polished, and where that isn't enough a few are inserted, removed and shaken.
+// Sizes are those that the vertices have, read off the triangulation. `optimise_2()` is the way to call it.
 
 #ifndef WEFT_PLANAR_MESH_IMPROVER_2_H
 #define WEFT_PLANAR_MESH_IMPROVER_2_H
@@ -28,9 +28,10 @@
 #include <CGAL/spatial_sort.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,8 @@ public:
   Mesh_improver_2(Triangulated_outline_2<K>& outline, std::vector<Point> inside, const Sizing& sizing,
                   const Improve_options_2& options, internal::Mesh_run_2& run, Mesh_report_2& report)
       : outline_(outline),
+        sizing_(sizing),
+        inside_(inside.size()),
         mesh_(outline.triangulation, sizing),
         options_(options),
         run_(run),
@@ -90,11 +93,14 @@ public:
     if (options.boundary == Boundary_2::fixed) mesh_.lock_constraints();
   }
 
-  void run()
+  /// \param relaxes whether vertices are spread anew first.
+  void run(bool relaxes)
   {
-    timed(Stage::relaxation, [this] { relax(); });
     const std::size_t n = mesh_.vertices().size();
-    pliant_.set_budget(least_insertions + n / 50, 20 * least_insertions + n / 5);
+    most_vertices_ =
+        n + (std::max)(least_insertions, static_cast<std::size_t>(options_.growth * static_cast<double>(n)));
+    if (relaxes) timed(Stage::relaxation, [this] { relax(); });
+    allow_insertions((std::min)(least_insertions + n / 50, most_vertices_ - n));
     std::size_t fewest = count_sharp();
     for (int round = 0, idle = 0; round < most_rounds && idle < most_idle && !run_.is_stopped(); ++round) {
       timed(Stage::polishing, [this] { polish(); });
@@ -103,6 +109,8 @@ public:
       if (sharp_ == 0) break;
       idle = sharp_ < fewest ? 0 : idle + 1;
       fewest = (std::min)(fewest, sharp_);
+      timed(Stage::refinement, [this] { refine(); });
+      allow_insertions(room());
     }
   }
 
@@ -118,7 +126,9 @@ private:
   static constexpr int quadrature = 10, most_sweeps = 12;
   static constexpr double polish_cost = 0.5, pliant_cost = 1;
   static constexpr std::size_t least_insertions = 20;
-  static constexpr int most_rounds = 8, most_idle = 2, most_pliant_passes = 6, most_polishing_passes = 30;
+  static constexpr int most_rounds = 8, most_idle = 2, most_pliant_passes = 6, most_polishing_passes = 30,
+                       most_batches = 30;
+  static constexpr double refined_angle = 28;
 
   template <class Function>
   void timed(Stage stage, const Function& function)
@@ -143,7 +153,7 @@ private:
     for (const auto& chain : mesh_.chains()) {
       const auto at = segment_between.find(std::minmax(chain.source->point(), chain.target->point()));
       if (at != segment_between.end())
-        internal::insert_cuts(mesh_, chain, parameters(chain, graph.segments[at->second].between), [] { return true; });
+        internal::insert_cuts(mesh_, chain, cuts(chain, graph.segments[at->second].between), [] { return true; });
     }
     CGAL::spatial_sort(inside.begin(), inside.end(), mesh_.triangulation().geom_traits());
     auto hint = mesh_.triangulation().infinite_face();
@@ -152,19 +162,56 @@ private:
     mesh_.renumber();
   }
 
-  /// Where points lie along a chain, in increasing order.
-  std::vector<double> parameters(const typename Mesh::Chain& chain, const std::vector<Point>& points) const
+  /// Where the points of a segment lie along its chain, in increasing order; others, where they leave gaps that are far
+  /// too long for the sizes there.
+  std::vector<double> cuts(const typename Mesh::Chain& chain, const std::vector<Point>& points) const
   {
+    constexpr double longest_gap = 2, wanted = 0.9;
     const auto along = chain.target->point() - chain.source->point();
     const double length2 = CGAL::to_double(along * along);
     std::vector<double> result;
     for (const Point& p : points) result.push_back(CGAL::to_double((p - chain.source->point()) * along) / length2);
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
+    if (options_.boundary == Boundary_2::fixed) return result;
+    double before = 0;
+    for (std::size_t i = 0; i <= result.size(); ++i) {
+      const double t = i < result.size() ? result[i] : 1;
+      const double size = sizing_.mean(chain.source->point() + (0.5 * (before + t)) * along);
+      if ((t - before) * std::sqrt(length2) > longest_gap * size)
+        return equal_metric_parts(
+            chain.source->point(), chain.target->point(), [this](const Point& p) { return sizing_.mean(p); }, wanted,
+            3 * mesh_.input_vertices() + 3 * inside_);
+      before = t;
+    }
     return result;
   }
 
   // ---- improvement
+
+  /// Vertices that may still be added.
+  std::size_t room() const { return most_vertices_ - (std::min)(mesh_.vertices().size(), most_vertices_); }
+
+  void allow_insertions(std::size_t most)
+  {
+    insertions_ = most;
+    pliant_.set_budget(most, 20 * least_insertions + mesh_.vertices().size() / 5);
+  }
+
+  /// Delaunay refinement of the sharpest triangles; only angles well below those that optimisation reaches are worth
+  /// it.
+  void refine()
+  {
+    refiner_.set_min_angle((std::min)(options_.min_angle, refined_angle));
+    for (int batch = 0; batch < most_batches && room() > 0 && go_on(); ++batch) {
+      if (refiner_.find_bad() == 0) break;
+      const bool none = refiner_.refine(room()).empty();
+      mesh_.renumber();
+      if (none) break;
+      polish_angles();
+    }
+    refiner_.set_min_angle(options_.min_angle);
+  }
 
   void relax()
   {
@@ -191,11 +238,12 @@ private:
 
   void hop()
   {
-    const std::size_t n = mesh_.vertices().size();
-    hopper_.run(pliant_cost, least_insertions + n / 50, [this] { return go_on(); });
+    hopper_.run(pliant_cost, (std::min)(insertions_, room()), [this] { return go_on(); });
   }
 
   Triangulated_outline_2<K>& outline_;
+  const Sizing& sizing_;
+  std::size_t inside_; ///< vertices that aren't on the outline
   Mesh mesh_;
   const Improve_options_2& options_;
   internal::Mesh_run_2& run_;
@@ -205,7 +253,7 @@ private:
   Polisher_2<Mesh> polisher_;
   Pliant_improver_2<Mesh> pliant_;
   Basin_hopper_2<Mesh> hopper_;
-  std::size_t sharp_ = 0;
+  std::size_t sharp_ = 0, most_vertices_ = 0, insertions_ = 0;
 };
 
 /// The mesh of a triangulated outline. Points of the graph that were vertices come first, in the order that they had.
@@ -260,8 +308,8 @@ Triangle_mesh_2<K> extract_mesh_2(const Triangulated_outline_2<K>& outline, cons
     const auto a = edge.first->vertex(Cdt::ccw(edge.second)), b = edge.first->vertex(Cdt::cw(edge.second));
     if (segment < 0 || !is_used[a] || !is_used[b]) continue;
     const auto& s = graph.segments[static_cast<std::size_t>(segment)];
-    const bool forward = CGAL::to_double((b->point() - a->point()) *
-                                         (graph.pslg.points[s.target] - graph.pslg.points[s.source])) > 0;
+    const bool forward =
+        CGAL::to_double((b->point() - a->point()) * (graph.pslg.points[s.target] - graph.pslg.points[s.source])) > 0;
     edges.push_back({static_cast<std::size_t>(segment), {number[forward ? a : b], number[forward ? b : a]}});
   }
   std::stable_sort(edges.begin(), edges.end(), [](const Marked& a, const Marked& b) { return a.segment < b.segment; });

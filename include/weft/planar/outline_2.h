@@ -85,10 +85,7 @@ public:
 private:
   using Edge = std::array<std::size_t, 2>;
 
-  std::size_t other_end(std::size_t e, std::size_t v) const
-  {
-    return mesh_.edges[e][mesh_.edges[e][0] == v ? 1 : 0];
-  }
+  std::size_t other_end(std::size_t e, std::size_t v) const { return mesh_.edges[e][mesh_.edges[e][0] == v ? 1 : 0]; }
 
   /// The side to the left (0) or right (1) of an edge that is followed from one of its ends.
   int side(std::size_t e, std::size_t from, std::size_t which) const

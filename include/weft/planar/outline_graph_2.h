@@ -101,7 +101,8 @@ std::vector<typename K::Point_2> respaced(const Smooth_curve_2<K>& curve, const 
     const double m = curve.length(i) / size(curve.middle(i));
     shortest = (std::min)(shortest, m);
     longest = (std::max)(longest, m);
-    if (i > 0) steepest = (std::max)({steepest, curve.length(i) / curve.length(i - 1), curve.length(i - 1) / curve.length(i)});
+    if (i > 0)
+      steepest = (std::max)({steepest, curve.length(i) / curve.length(i - 1), curve.length(i - 1) / curve.length(i)});
     metric.push_back(metric.back() + m);
   }
   if (steepest < well_spaced && longest < 1.5 && shortest > 0.6) return {};

@@ -11,9 +11,11 @@
 #include <CGAL/number_utils.h>
 #include <CGAL/Unique_hash_map.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace weft {
@@ -72,27 +74,34 @@ public:
   using Point = typename K::Point_2;
 
   /// \param largest edges of good meshes are up to so many times as long as those of equilateral triangles of the same
-  ///   area. \param growth of sizes by distance, at most.
+  ///   area. \param growth of sizes by distance, at most. \param allow_constraints whether sizes are to allow all
+  ///   constrained edges, whatever their length.
   template <class Cdt>
-  Vertex_density_sizing_2(const Cdt& cdt, double largest, double growth)
-      : Vertex_density_sizing_2(cdt, vertex_sizes_2(cdt, 3), largest, growth)
-  {}
+  Vertex_density_sizing_2(const Cdt& cdt, double largest, double growth, bool allow_constraints) : largest_(largest)
+  {
+    auto sizes = vertex_sizes_2(cdt, 3);
+    field_.emplace(cdt, [&sizes](typename Cdt::Vertex_handle v) { return sizes[v]; });
+    field_->limit_gradient(growth);
+    if (!allow_constraints) return;
+    std::size_t i = 0;
+    for (const auto v : cdt.finite_vertex_handles()) sizes[v] = field_->sizes()[i++];
+    for (const auto f : cdt.finite_face_handles())
+      for (int k = 0; k < 3; ++k) {
+        if (!f->is_in_domain() || !f->is_constrained(k)) continue;
+        const double least = 1.05 * std::sqrt(CGAL::to_double(cdt.segment(f, k).squared_length())) / largest;
+        for (int j = 0; j < 3; ++j) sizes[f->vertex(j)] = (std::max)(sizes[f->vertex(j)], least);
+      }
+    field_.emplace(cdt, [&sizes](typename Cdt::Vertex_handle v) { return sizes[v]; });
+  }
 
   /// The longest edge that there should be.
   double operator()(const Point& p) const { return largest_ * mean(p); }
 
   /// The edge length of equilateral triangles.
-  double mean(const Point& p) const { return CGAL::to_double(field_(p)); }
+  double mean(const Point& p) const { return CGAL::to_double((*field_)(p)); }
 
 private:
-  template <class Cdt, class Sizes>
-  Vertex_density_sizing_2(const Cdt& cdt, const Sizes& sizes, double largest, double growth)
-      : field_(cdt, [&sizes](typename Cdt::Vertex_handle v) { return sizes[v]; }), largest_(largest)
-  {
-    field_.limit_gradient(growth);
-  }
-
-  Background_sizing_2<K> field_;
+  std::optional<Background_sizing_2<K>> field_; ///< always there
   double largest_;
 };
 

@@ -144,8 +144,7 @@ Indexed_mesh_2 indexed_mesh(const Triangle_mesh_2<K>& mesh, const Mesh_tags_2<K>
     result.triangles.push_back(
         {mesh.triangles[t], static_cast<int>(rank_of_tag(regions, mesh.regions[t])), mesh.regions[t]});
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    result.edges.push_back(
-        {mesh.edges[e], static_cast<int>(rank_of_tag(tags, mesh.edge_tags[e])), mesh.edge_tags[e]});
+    result.edges.push_back({mesh.edges[e], static_cast<int>(rank_of_tag(tags, mesh.edge_tags[e])), mesh.edge_tags[e]});
   result.fixed = mesh.corners;
   return result;
 }
