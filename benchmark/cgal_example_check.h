@@ -60,7 +60,8 @@ inline void print(const char* what, const Figures& f)
               f.smallest, f.seconds);
 }
 
-/// Meshes with weft, and with CGAL's refinement, perturbation and exudation; returns weft's mesh.
+/// Meshes with weft, and with CGAL's refinement, perturbation and exudation; returns weft's mesh. Ends the program where
+/// that has elements that violate the criteria.
 template <class C3t3, class Domain, class Criteria>
 C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria, const char* name)
 {
@@ -83,6 +84,10 @@ C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria, const char* nam
   std::printf(" %+.1f | %s |\n", figures.smallest - peers.smallest, report.ok() ? "all" : "not all");
   if (!report.ok()) std::cerr << name << ": " << report << "\n";
   std::fflush(stdout);
+  if (figures.bad_facets + figures.bad_cells > 0 || figures.cells == 0) {
+    std::cerr << name << ": weft's mesh doesn't satisfy CGAL's criteria\n";
+    std::exit(EXIT_FAILURE);
+  }
   return mine;
 }
 

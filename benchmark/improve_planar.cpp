@@ -13,11 +13,13 @@
 #include <weft/optimise_2.h>
 #include <weft/planar/from_triangulation_2.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,16 +27,14 @@ namespace {
 
 using Mesh = weft::Triangle_mesh_2<benchmark::Kernel>;
 
-/// What the last column is about.
-std::size_t triangles_below(const weft::Quality_2& quality, const Mesh& mesh, double degrees)
+std::size_t triangles_below(const Mesh& mesh, double degrees)
 {
   std::size_t n = 0;
-  (void)quality;
   for (const auto& t : mesh.triangles) {
-    const weft::internal::Scaled_triangle_2 triangle(std::array<weft::internal::Xy_2, 3>{
-        weft::internal::xy(mesh.points[t[0]]), weft::internal::xy(mesh.points[t[1]]),
-        weft::internal::xy(mesh.points[t[2]])});
-    n += std::min({triangle.angle(0), triangle.angle(1), triangle.angle(2)}) < degrees;
+    std::array<benchmark::Xy, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = {mesh.points[t[i]].x(), mesh.points[t[i]].y()};
+    n += std::min({benchmark::angle(p[0], p[1], p[2]), benchmark::angle(p[1], p[2], p[0]),
+                   benchmark::angle(p[2], p[0], p[1])}) < degrees;
   }
   return n;
 }
@@ -43,7 +43,7 @@ void print_row(const std::string& name, const std::string& method, const Mesh& m
 {
   const weft::Quality_2 q = weft::measure_quality_2(mesh);
   std::printf("| %s | %s | %zu | %.1f | %.1f | %.1f | %zu | %.3f |\n", name.c_str(), method.c_str(), q.vertices,
-              q.smallest_angle.degrees, q.largest_angle.degrees, q.mean_smallest_angle, triangles_below(q, mesh, 30),
+              q.smallest_angle.degrees, q.largest_angle.degrees, q.mean_smallest_angle, triangles_below(mesh, 30),
               seconds);
   std::fflush(stdout);
 }
