@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -34,11 +35,47 @@ struct Free_nifti_image
   void operator()(nifti_image* image) const { nifti_image_free(image); }
 };
 
-template <class Number>
-std::vector<double> nifti_values_of(const nifti_image& image)
+struct Nifti_file
 {
-  std::vector<double> result(image.nvox);
-  const char* at = static_cast<const char*>(image.data);
+  std::unique_ptr<nifti_image, Free_nifti_image> image; ///< the header
+  std::vector<char> bytes;                              ///< of the voxels
+};
+
+/// Header and voxels. Not by `nifti_image_load()`, which takes what a cut file lacks, and numbers that aren't, for 0.
+inline Nifti_file read_nifti_file(const std::string& filename)
+{
+  nifti_set_debug_level(0); // else the library prints
+  Nifti_file file;
+  file.image.reset(nifti_image_read(filename.c_str(), 0));
+  const nifti_image* const image = file.image.get();
+  if (image == nullptr || image->nvox == 0 || image->nbyper <= 0 || image->iname_offset < 0)
+    throw File_error(filename, 0, "isn't a NIfTI image that can be read");
+  znzFile in = znzopen(image->iname, "rb", nifti_is_gzfile(image->iname));
+  if (in == nullptr) throw File_error(filename, 0, std::string("needs ") + image->iname + ", which can't be opened");
+  znzseek(in, static_cast<long>(image->iname_offset), SEEK_SET);
+  // In parts, so that a header that promises too much costs no memory.
+  constexpr std::size_t most_at_once = std::size_t(1) << 20;
+  std::size_t left = image->nvox * static_cast<std::size_t>(image->nbyper), got = 1;
+  for (; left > 0 && got > 0; left -= got) {
+    const std::size_t before = file.bytes.size(), part = (std::min)(left, most_at_once);
+    file.bytes.resize(before + part);
+    got = znzread(file.bytes.data() + before, 1, part, in);
+    if (got > part) got = 0; // an error of zlib
+    file.bytes.resize(before + got);
+  }
+  znzclose(in);
+  if (left > 0) throw File_error(filename, 0, "ends before all voxels");
+  if (image->swapsize > 1 && image->byteorder != nifti_short_order())
+    nifti_swap_Nbytes(file.bytes.size() / static_cast<std::size_t>(image->swapsize), image->swapsize,
+                      file.bytes.data());
+  return file;
+}
+
+template <class Number>
+std::vector<double> nifti_values_of(const Nifti_file& file)
+{
+  std::vector<double> result(file.image->nvox);
+  const char* at = file.bytes.data();
   for (double& value : result) {
     Number number;
     std::memcpy(&number, at, sizeof number);
@@ -48,32 +85,32 @@ std::vector<double> nifti_values_of(const nifti_image& image)
   return result;
 }
 
-inline std::vector<double> nifti_values(const std::string& filename, const nifti_image& image)
+inline std::vector<double> nifti_values(const std::string& filename, const Nifti_file& file)
 {
-  switch (image.datatype) {
+  switch (file.image->datatype) {
   case DT_UINT8:
-    return nifti_values_of<std::uint8_t>(image);
+    return nifti_values_of<std::uint8_t>(file);
   case DT_INT8:
-    return nifti_values_of<std::int8_t>(image);
+    return nifti_values_of<std::int8_t>(file);
   case DT_UINT16:
-    return nifti_values_of<std::uint16_t>(image);
+    return nifti_values_of<std::uint16_t>(file);
   case DT_INT16:
-    return nifti_values_of<std::int16_t>(image);
+    return nifti_values_of<std::int16_t>(file);
   case DT_UINT32:
-    return nifti_values_of<std::uint32_t>(image);
+    return nifti_values_of<std::uint32_t>(file);
   case DT_INT32:
-    return nifti_values_of<std::int32_t>(image);
+    return nifti_values_of<std::int32_t>(file);
   case DT_UINT64:
-    return nifti_values_of<std::uint64_t>(image);
+    return nifti_values_of<std::uint64_t>(file);
   case DT_INT64:
-    return nifti_values_of<std::int64_t>(image);
+    return nifti_values_of<std::int64_t>(file);
   case DT_FLOAT32:
-    return nifti_values_of<float>(image);
+    return nifti_values_of<float>(file);
   case DT_FLOAT64:
-    return nifti_values_of<double>(image);
+    return nifti_values_of<double>(file);
   default:
     throw File_error(filename, 0,
-                     std::string("has voxels of the type ") + nifti_datatype_string(image.datatype) +
+                     std::string("has voxels of the type ") + nifti_datatype_string(file.image->datatype) +
                          ", not single numbers");
   }
 }
@@ -103,13 +140,12 @@ inline Nifti_frame nifti_frame(const nifti_image& image)
 /// The image in scanner coordinates where its axes are theirs, perhaps reversed; else in its own, from 0.
 inline Label_image_3 read_nifti(const std::string& filename)
 {
-  nifti_set_debug_level(0); // else the library prints
-  const std::unique_ptr<nifti_image, Free_nifti_image> image(nifti_image_read(filename.c_str(), 1));
-  if (!image || image->data == nullptr) throw File_error(filename, 0, "isn't a NIfTI image that can be read");
+  const Nifti_file file = read_nifti_file(filename);
+  const nifti_image* const image = file.image.get();
   const std::array<std::size_t, 3> size{
       {static_cast<std::size_t>(image->nx), static_cast<std::size_t>(image->ny), static_cast<std::size_t>(image->nz)}};
   if (image->nvox != size[0] * size[1] * size[2]) throw File_error(filename, 0, "has several values per voxel");
-  std::vector<double> values = nifti_values(filename, *image);
+  std::vector<double> values = nifti_values(filename, file);
   if (image->scl_slope != 0)
     for (double& v : values) v = image->scl_slope * v + image->scl_inter;
   const std::array<double, 3> spacing{{std::abs(image->dx), std::abs(image->dy), std::abs(image->dz)}};
