@@ -225,13 +225,10 @@ std::string report_json(const Mesh_report_2& report, const Measures&... measures
   return json.text() + "\n";
 }
 
-inline std::string report_json(const Improve_report_2& r)
+/// What reports of improved meshes have in common: notes, stages, and the quality before and after.
+template <class Report>
+void append_course(Json_text& json, const Report& r)
 {
-  Json_text json;
-  json.begin_object().member("ok", r.ok()).member("stop_reason", name(r.stop_reason));
-  json.member("inverted_before", r.inverted_before).member("inverted_after", r.inverted_after);
-  json.member("below_min_angle", r.below_min_angle).member("at_input_angle", r.at_input_angle);
-  json.member("input_bound", r.input_bound).member("moves", r.moves).member("flips", r.flips);
   json.begin_array("notes");
   for (const std::string& note : r.notes) json.begin_object().member("note", note).end();
   json.end().begin_array("stages");
@@ -240,6 +237,16 @@ inline std::string report_json(const Improve_report_2& r)
   json.end();
   append_json(json, r.before, "before");
   append_json(json, r.after, "after");
+}
+
+inline std::string report_json(const Improve_report_2& r)
+{
+  Json_text json;
+  json.begin_object().member("ok", r.ok()).member("stop_reason", name(r.stop_reason));
+  json.member("inverted_before", r.inverted_before).member("inverted_after", r.inverted_after);
+  json.member("below_min_angle", r.below_min_angle).member("at_input_angle", r.at_input_angle);
+  json.member("input_bound", r.input_bound).member("moves", r.moves).member("flips", r.flips);
+  append_course(json, r);
   json.end();
   return json.text() + "\n";
 }

@@ -92,14 +92,7 @@ inline std::string report_json(const Improve_report_3& r)
   json.member("unrepresented", r.unrepresented).member("boundary_bound", r.boundary_bound);
   json.member("moves", r.moves).member("insertions", r.insertions).member("removals", r.removals);
   json.member("flips", r.flips);
-  json.begin_array("notes");
-  for (const std::string& note : r.notes) json.begin_object().member("note", note).end();
-  json.end().begin_array("stages");
-  for (const auto& [stage, seconds] : r.stage_seconds)
-    json.begin_object().member("name", stage).member("seconds", seconds).end();
-  json.end();
-  append_json(json, r.before, "before");
-  append_json(json, r.after, "after");
+  append_course(json, r);
   json.end();
   return json.text() + "\n";
 }
