@@ -60,8 +60,8 @@ inline void print(const char* what, const Figures& f)
               f.smallest, f.seconds);
 }
 
-/// Meshes with weft, and with CGAL's refinement, perturbation and exudation; returns weft's mesh. Ends the program where
-/// that has elements that violate the criteria.
+/// Meshes with weft, and with CGAL's refinement, perturbation and exudation; returns weft's mesh. Ends the program
+/// where that has elements that violate the criteria.
 template <class C3t3, class Domain, class Criteria>
 C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria, const char* name)
 {
