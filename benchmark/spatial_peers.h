@@ -50,11 +50,12 @@ inline Cgal_polyhedron polyhedron(const Complex& complex)
 
 /// CGAL's bounds are those of circumradii: 1 / sqrt(3) of the edge of a regular triangle, sqrt(6) / 4 of that of a
 /// regular tetrahedron. A triangle's circumradius / shortest edge is 1 / (2 sin(smallest angle)).
-inline auto cgal_criteria(const Bounds& bounds, double edge_size)
+template <class Triangulation = Cgal_triangulation>
+auto cgal_criteria(const Bounds& bounds, double edge_size)
 {
   namespace with = CGAL::parameters;
   const double angle = std::asin(1 / (2 * bounds.shape)) * 180 / std::acos(-1.);
-  return CGAL::Mesh_criteria_3<Cgal_triangulation>(
+  return CGAL::Mesh_criteria_3<Triangulation>(
       with::edge_size = edge_size,
 #if CGAL_VERSION_NR >= 1060000000
       with::edge_distance = bounds.approximation, // 5.x has no such bound
