@@ -4,7 +4,7 @@
 
 const width = 560;
 const height = 230;
-const axes = { left: 12, right: 12, top: 26, bottom: 40 };
+const axes = { left: 18, right: 18, top: 26, bottom: 40 };
 
 function binned(counts, size, upTo) {
   const bins = new Array(upTo / size).fill(0);

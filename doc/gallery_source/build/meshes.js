@@ -36,18 +36,18 @@ async function meshVariant(model, variant, input, options) {
   const { programs, meshFolder, pushSeconds } = options;
   const program = join(programs, model.dimension === 2 ? "gallery_planar" : "gallery_spatial");
   const prefix = join(meshFolder, `${model.id}_${variant.id}`);
-  const args = [input, "--output", prefix, ...variant.arguments];
-  if (model.dimension === 3 && pushSeconds > 0) args.push("--push", String(pushSeconds));
+  const bounds = [...variant.arguments];
+  if (model.dimension === 3 && pushSeconds > 0) bounds.push("--push", String(pushSeconds));
   const [done, asked] = [`${prefix}.json`, `${prefix}.args`];
   const isFresh =
     existsSync(done) &&
     existsSync(asked) &&
-    readFileSync(asked, "utf8") === JSON.stringify(args) &&
+    readFileSync(asked, "utf8") === JSON.stringify(bounds) &&
     statSync(done).mtimeMs > statSync(program).mtimeMs;
   if (!isFresh) {
     rmSync(done, { force: true });
-    await run(program, args);
-    writeFileSync(asked, JSON.stringify(args));
+    await run(program, [input, "--output", prefix, ...bounds]);
+    writeFileSync(asked, JSON.stringify(bounds));
   }
   return {
     ...variant,

@@ -101,62 +101,62 @@ export const models = [
   }),
   spatial("elephant", "The classic of CGAL's manual.", {
     file: "meshes/elephant.off",
-    view: cutAway({ cut: 0.5, direction: "x" }, { up: "y", azimuth: 52, elevation: 10, zoom: 1.25 }),
+    view: cutAway({ cut: 0.38, direction: "z" }, { up: "y", azimuth: 22, elevation: 10 }),
   }),
   spatial("dino", "Thin legs and a long tail.", {
     file: "meshes/dino.off",
-    view: cutAway({ cut: 0.5, direction: "z" }, { up: "y", azimuth: 20, elevation: 12, zoom: 1.25 }),
+    view: cutAway({ cut: 0.5, direction: "x" }, { up: "z", azimuth: 18, elevation: 10 }),
   }),
   spatial("bunny", "A scan, smooth but for its noise.", {
     file: "meshes/bunny00.off",
-    view: cutAway({ cut: 0.5, direction: "z" }, { up: "y", azimuth: 25, elevation: 12, zoom: 1.2 }),
+    view: cutAway({ cut: 0.5, direction: "z" }, { up: "y", azimuth: 20, elevation: 12 }),
   }),
   spatial("homer", "A figure with thin parts.", {
     file: "meshes/homer.off",
-    view: cutAway({ cut: 0.5, direction: "z" }, { up: "y", azimuth: 25, elevation: 10, zoom: 1.2 }),
+    view: cutAway({ cut: 0.48, direction: "z" }, { up: "y", azimuth: 22, elevation: 8 }),
   }),
   spatial("bear", "A rounded figure.", {
     file: "meshes/bear.off",
-    view: cutAway({ cut: 0.5, direction: "z" }, { up: "y", azimuth: 25, elevation: 10, zoom: 1.2 }),
+    view: cutAway({ cut: 0.48, direction: "z" }, { up: "y", azimuth: 22, elevation: 8 }),
   }),
   spatial("armadillo", "Detail everywhere.", {
     file: "meshes/armadillo.off",
-    view: cutAway({ cut: 0.5, direction: "z" }, { up: "y", azimuth: 25, elevation: 10, zoom: 1.2 }),
+    view: cutAway({ cut: 0.5, direction: "z", flipped: true }, { up: "y", azimuth: 202, elevation: 8 }),
   }),
   spatial("anchor", "A mechanical part with curved and sharp edges.", {
     file: "meshes/anchor.off",
     sharp: 60,
-    view: cutAway({ cut: 0.45, direction: "z" }, { up: "y", azimuth: 30, elevation: 18, zoom: 1.1 }),
+    view: cutAway({ cut: 0.45, direction: "y" }, { up: "y", azimuth: 35, elevation: 32 }),
   }),
   spatial("anchor dense", "The same part, its surface with many more triangles.", {
     file: "meshes/anchor_dense.off",
     sharp: 60,
-    view: cutAway({ cut: 0.45, direction: "z" }, { up: "y", azimuth: 30, elevation: 18, zoom: 1.1 }),
+    view: cutAway({ cut: 0.45, direction: "y" }, { up: "y", azimuth: 35, elevation: 32 }),
   }),
   spatial("fandisk", "Smooth patches that meet in creases, some of which fade out.", {
     file: "meshes/fandisk.off",
     sharp: 60,
-    view: cutAway({ cut: 0.45, direction: "z" }, { up: "y", azimuth: 35, elevation: 20, zoom: 1.1 }),
+    view: cutAway({ cut: 0.45, direction: "x" }, { up: "z", azimuth: 35, elevation: 25 }),
   }),
   spatial("turbine", "Creases close to each other.", {
     file: "meshes/turbine.off",
     sharp: 60,
-    view: cutAway({ cut: 0.45, direction: "z" }, { up: "z", azimuth: 35, elevation: 35, zoom: 1.1 }),
+    view: cutAway({ cut: 0.5, direction: "y" }, { up: "y", azimuth: 60, elevation: 32 }),
   }),
   spatial("dragknob", "A knob with many small fillets.", {
     file: "meshes/dragknob.off",
     sharp: 60,
-    view: cutAway({ cut: 0.45, direction: "y" }, { up: "z", azimuth: 35, elevation: 25, zoom: 1.1 }),
+    view: cutAway({ cut: 0.5, direction: "y" }, { up: "y", azimuth: 60, elevation: 32 }),
   }),
   spatial("joint", "Bores that cross.", {
     file: "meshes/joint.off",
     sharp: 60,
-    view: cutAway({ cut: 0.45, direction: "y" }, { up: "z", azimuth: 35, elevation: 25, zoom: 1.1 }),
+    view: cutAway({ cut: 0.45, direction: "x" }, { up: "z", azimuth: 35, elevation: 25 }),
   }),
   spatial("liver", "A segmented scan of several tissues, meshed straight from its voxels.", {
     file: "images/liver.inr.gz",
     bounds: [0.05, 0.004],
-    view: cutAway({ cut: 0.45, direction: "z", colour: "subdomain" }, { azimuth: -60, elevation: 40, zoom: 1.2 }),
+    view: cutAway({ cut: 0.45, direction: "z", colour: "subdomain" }, { azimuth: -60, elevation: 40 }),
   }),
 ];
 

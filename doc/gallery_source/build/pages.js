@@ -118,11 +118,10 @@ ${skipped}
 // ---- Page of a model
 
 function poster(model, variant) {
-  const cut = model.dimension === 3 ? "cut_" : "";
   const size = Math.round(Object.values(variant.bytes).reduce((a, b) => a + b, 0) / 1024);
   const label = size < 1024 ? `${size} kB` : `${(size / 1024).toFixed(1)} MB`;
   return `<div class="poster">
-<img src="../pictures/${model.id}_${variant.id}_${cut}weft.webp" alt="" width="640" height="480">
+<img src="../pictures/${model.id}_${variant.id}_both.webp" alt="${escape(`${model.title}: meshes by weft, left, and CGAL, right`)}" width="1600" height="800">
 <button type="button">Open the viewer <small>${label}</small></button>
 </div>`;
 }
@@ -151,15 +150,9 @@ function pictures(model, variant) {
   const picture = (file, alt, caption) =>
     `<figure><img src="${base}_${file}.webp" alt="${escape(alt)}" width="640" height="480" loading="lazy"><figcaption>${caption}</figcaption></figure>`;
   const [weft, cgal] = [row(variant, "weft"), row(variant, "CGAL")];
-  if (model.dimension === 2)
-    return `<div class="pictures">
-${picture("weft", `${model.title} by weft`, `weft: ${integer(weft.elements)} triangles`)}
-${picture("cgal", `${model.title} by CGAL`, `CGAL: ${integer(cgal.elements)} triangles`)}
-</div>`;
   const inside = (name, mesh) => `${name}: ${integer(below(mesh, 15))} of ${integer(mesh.elements)} cells below 15°`;
   return `<div class="pictures">
-${picture("whole", `${model.title}, whole`, "weft, the boundary")}
-${picture("cut_cgal", `${model.title} by CGAL, cut open`, "CGAL, cut open")}
+${picture("whole", `${model.title} by weft, whole`, "The boundary of weft's mesh")}
 ${picture("slivers_weft", `Cells below 15 degrees by weft`, inside("weft", weft))}
 ${picture("slivers_cgal", `Cells below 15 degrees by CGAL`, inside("CGAL", cgal))}
 </div>`;
@@ -177,7 +170,7 @@ function histograms(model, variant) {
     binSize: 3,
     tickEvery: 30,
   });
-  if (model.dimension === 2) return `<div class="histograms">${all}</div>`;
+  if (model.dimension === 2) return all;
   const most = (r) => r.smallest_angles.findLastIndex((n) => n > 0) + 1;
   const smallest = histogram({
     title: `Smallest dihedral angle of each cell; ${degrees(70.5)} if regular`,
@@ -187,7 +180,7 @@ function histograms(model, variant) {
     binSize: 2,
     tickEvery: 12,
   });
-  return `<div class="histograms">${all}${smallest}</div>`;
+  return all + smallest;
 }
 
 const columnTitles = {
@@ -254,9 +247,11 @@ function part(model, variant) {
 ${heading}
 ${variant.about ? `<p class="lead">${escape(variant.about)}</p>` : ""}
 ${viewer(model, variant)}
-${pictures(model, variant)}
+${model.dimension === 3 ? pictures(model, variant) : ""}
+<div class="results">
 ${histograms(model, variant)}
 ${table(model, variant)}
+</div>
 <p class="note">${asked(model, variant)}
 <a href="../meshes/${model.id}_${variant.id}_weft.mesh" download>weft's mesh</a> and
 <a href="../meshes/${model.id}_${variant.id}_cgal.mesh" download>CGAL's</a> in Medit's format.</p>

@@ -8,17 +8,18 @@ import { pathToFileURL } from "node:url";
 import { launch } from "./browser.js";
 
 const size = { width: 1280, height: 960 };
+const wideSize = { width: 1600, height: 800 };
 
 /** What the pictures of a mesh show, by file name. */
 function scenes(model, variant) {
-  if (model.dimension === 2) return { weft: { mesher: "weft" }, cgal: { mesher: "cgal" } };
+  if (model.dimension === 2) return { weft: { mesher: "weft" }, both: { mesher: "both" } };
   const cut = variant.view?.state ?? {};
   const glass = { cut: 0, below: 15, glass: true };
-  const plain = { cut: 0, glass: false, below: 0, colour: cut.colour === "subdomain" ? "subdomain" : "quality" };
+  const plain = { cut: 0, glass: false, below: 0, colour: "quality" };
   return {
-    whole: { ...plain, mesher: "weft" },
+    whole: { ...plain, colour: cut.colour === "subdomain" ? "subdomain" : "plain", mesher: "weft" },
     cut_weft: { ...plain, ...cut, mesher: "weft" },
-    cut_cgal: { ...plain, ...cut, mesher: "cgal" },
+    both: { ...plain, ...cut, mesher: "both" },
     slivers_weft: { ...glass, mesher: "weft" },
     slivers_cgal: { ...glass, mesher: "cgal" },
   };
@@ -49,7 +50,8 @@ export async function takePictures(models, folder) {
         const id = `viewer-${variant.id}`;
         await page.evaluate((viewer) => gallery.open(document.getElementById(viewer)).then(() => undefined), id);
         for (const [name, state] of Object.entries(scenes(model, variant))) {
-          const bytes = await takePicture(page, id, state, { ...size, lineWidth: model.dimension === 3 ? 1.2 : 1 });
+          const shape = state.mesher === "both" ? wideSize : size;
+          const bytes = await takePicture(page, id, state, { ...shape, lineWidth: model.dimension === 3 ? 1.2 : 1 });
           writeFileSync(join(folder, "pictures", `${model.id}_${variant.id}_${name}.webp`), bytes);
         }
         await page.evaluate((viewer) => document.getElementById(viewer).viewer.dispose(), id);

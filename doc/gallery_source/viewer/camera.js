@@ -19,7 +19,6 @@ function spatialCamera(mesh, canvas, { up = "z", azimuth = 30, elevation = 20, z
   const { center, radius } = mesh.bounds;
   const camera = new THREE.PerspectiveCamera(fieldOfView, 1, radius / 20, 20 * radius);
   camera.zoom = zoom;
-  camera.userData.radius = radius;
   camera.up.set(0, up === "y" ? 1 : 0, up === "z" ? 1 : 0);
   const [a, e] = [azimuth, elevation].map((x) => (x * Math.PI) / 180);
   const [forward, side, height] = [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)];
@@ -33,7 +32,23 @@ function spatialCamera(mesh, canvas, { up = "z", azimuth = 30, elevation = 20, z
   controls.enableDamping = true;
   controls.dampingFactor = 0.15;
   controls.update();
+  camera.userData.half = halfAngles(mesh, camera);
   return { camera, controls };
+}
+
+/** Tangents of half the angles under which the camera sees the mesh, across and upright. */
+function halfAngles({ positions, bounds }, camera) {
+  camera.updateMatrixWorld();
+  const point = new THREE.Vector3();
+  const half = [0, 0];
+  for (let i = 0; i < positions.length; i += 3) {
+    point.fromArray(positions, i).applyMatrix4(camera.matrixWorldInverse);
+    half[0] = Math.max(half[0], Math.abs(point.x / point.z));
+    half[1] = Math.max(half[1], Math.abs(point.y / point.z));
+  }
+  // Of a flat body, not so little that turning it would bring much of it out of sight.
+  const least = (0.6 * bounds.radius) / camera.position.distanceTo(point.fromArray(bounds.center));
+  return half.map((x) => 1.06 * Math.max(x, least));
 }
 
 function planarCamera(mesh, canvas, { zoom = 1 }) {
@@ -56,14 +71,12 @@ function planarCamera(mesh, canvas, { zoom = 1 }) {
 
 /** Lets the whole mesh be seen in a window of that width over height. */
 export function fit(camera, aspect) {
+  const [x, y] = camera.userData.half;
+  const height = Math.max(y, x / aspect);
   if (camera.isPerspectiveCamera) {
-    // The field of view is that of the shorter side.
-    const half = Math.tan((fieldOfView / 2) * (Math.PI / 180)) / Math.min(1, aspect);
-    camera.fov = (2 * Math.atan(half) * 180) / Math.PI;
+    camera.fov = (2 * Math.atan(height) * 180) / Math.PI;
     camera.aspect = aspect;
   } else {
-    const [x, y] = camera.userData.half;
-    const height = Math.max(y, x / aspect);
     camera.top = height;
     camera.bottom = -height;
     camera.right = height * aspect;

@@ -9,10 +9,10 @@ const SCALE = [
   [247, 148, 86],
   [253, 212, 136],
   [222, 234, 204],
-  [146, 197, 214],
-  [84, 148, 193],
-  [47, 98, 163],
-  [38, 66, 130],
+  [164, 208, 222],
+  [117, 176, 211],
+  [82, 143, 194],
+  [56, 112, 173],
 ];
 
 const CATEGORIES = [
@@ -72,6 +72,7 @@ export function colouring(mesh, state, isCut) {
       const patch = f < 0 ? -1 : mesh.facePatches[4 * c + f];
       return patch < 0 ? PLAIN : colourOfCategory(patch);
     },
+    plain: () => PLAIN,
   }[state.colour];
   if (!(state.below > 0)) return base;
   return (c, f, isBared) => (qualities[c] < state.below ? HIGHLIGHT : pale(base(c, f, isBared)));

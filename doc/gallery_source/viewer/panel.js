@@ -36,11 +36,11 @@ export class Panel {
   }
 
   colourings() {
-    const { dimension, numberOfSubdomains, numberOfPatches } = this.viewer.mesh;
+    const { dimension, numberOfSubdomains } = this.viewer.mesh;
     const result = { quality: "Quality" };
-    if (numberOfSubdomains > 1 || dimension === 2) result.subdomain = "Subdomain";
-    if (dimension === 3) Object.assign(result, { subdomain: "Subdomain", patch: "Patch" });
-    if (numberOfPatches < 1) delete result.patch;
+    if (numberOfSubdomains > 1) result.subdomain = "Subdomain";
+    if (dimension === 3) result.patch = "Patch";
+    result.plain = "Plain";
     return result;
   }
 

@@ -9,8 +9,8 @@ import { Pane } from "./pane.js";
 const AXES = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
 export const initialState = {
-  mesher: "weft", // or "cgal", or "both" side by side
-  colour: "quality", // or "subdomain", "patch"
+  mesher: "both", // side by side, or "weft" or "cgal"
+  colour: "quality", // or "subdomain", "patch", "plain"
   edges: true,
   cut: 0, // how much of the extent is cut away, from 0 to 1
   direction: "x", // of the plane's normal: "x", "y", "z" or "view"
