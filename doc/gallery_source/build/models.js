@@ -101,7 +101,7 @@ export const models = [
   }),
   spatial("elephant", "The classic of CGAL's manual.", {
     file: "meshes/elephant.off",
-    view: cutAway({ cut: 0.38, direction: "z" }, { up: "y", azimuth: 22, elevation: 10 }),
+    view: cutAway({ cut: 0.36, direction: "z" }, { up: "y", azimuth: 22, elevation: 10 }),
   }),
   spatial("dino", "Thin legs and a long tail.", {
     file: "meshes/dino.off",

@@ -2,6 +2,7 @@
 //
 // The pages as text: one with a card for each model, and one for each model.
 
+import { SCALE_TOP, scaleGradient } from "../viewer/colours.js";
 import { histogram } from "./histogram.js";
 
 export const escape = (text) =>
@@ -51,11 +52,19 @@ function card(model) {
 </li>`;
 }
 
+const scale = `<div class="scale">
+<div class="gradient" style="background: ${scaleGradient}"></div>
+<div class="ticks">${[0, 20, 40, SCALE_TOP].map((x) => `<span>${x}°</span>`).join("")}</div>
+</div>`;
+
 function section(id, title, about, models) {
   if (models.length === 0) return "";
   return `<section aria-labelledby="${id}">
 <h2 id="${id}">${title}</h2>
+<div class="legend">
 <p class="lead">${about}</p>
+${scale}
+</div>
 <ul class="cards">
 ${models.map(card).join("\n")}
 </ul>
@@ -106,7 +115,7 @@ They are in Debian's package <code>libcgal-demo</code>.</p>`;
 for its worst cells.</p>
 </header>
 <main>
-${section("spatial", "In space", "Tetrahedra, cut open. Colours show the smallest dihedral angle of each cell, from red (0°) to blue (60°).", spatial)}
+${section("spatial", "In space", "Tetrahedra, cut open and coloured by their smallest dihedral angle, unless there are several materials.", spatial)}
 ${section("planar", "In the plane", "Triangles, coloured by their smallest angle.", planar)}
 ${overview([...spatial, ...planar])}
 ${skipped}
