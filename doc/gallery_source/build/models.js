@@ -72,7 +72,6 @@ function spatial(title, about, options) {
 }
 
 export const models = [
-  ...Object.keys(planarAbout).map(planar),
   spatial("gear", "A spur gear with hub, bore and fillets.", {
     input: "gear.off",
     bounds: [0.05, 0.0008],
@@ -158,6 +157,7 @@ export const models = [
     bounds: [0.05, 0.004],
     view: cutAway({ cut: 0.45, direction: "z", colour: "subdomain" }, { azimuth: -60, elevation: 40 }),
   }),
+  ...Object.keys(planarAbout).map(planar),
 ];
 
 /** Those of the gallery that --quick makes. */

@@ -47,7 +47,8 @@ function card(model) {
 <a href="models/${model.id}.html">
 <img src="pictures/${model.id}_${variant.id}_${model.dimension === 3 ? "cut_" : ""}weft.webp" alt="" width="640" height="480" loading="lazy">
 <h3>${escape(capital(model.title))}</h3>
-<p>${integer(weft.elements)} ${model.dimension === 3 ? "tetrahedra" : "triangles"}, angles from <b>${degrees(weft.smallest_angle)}</b> <span class="quiet">CGAL ${degrees(cgal.smallest_angle)}</span></p>
+<p>${integer(weft.elements)} ${model.dimension === 3 ? "tetrahedra" : "triangles"}<br>
+angles from <b>${degrees(weft.smallest_angle)}</b> <span class="quiet">(CGAL ${degrees(cgal.smallest_angle)})</span></p>
 </a>
 </li>`;
 }
@@ -130,7 +131,7 @@ function poster(model, variant) {
   const size = Math.round(Object.values(variant.bytes).reduce((a, b) => a + b, 0) / 1024);
   const label = size < 1024 ? `${size} kB` : `${(size / 1024).toFixed(1)} MB`;
   return `<div class="poster">
-<img src="../pictures/${model.id}_${variant.id}_both.webp" alt="${escape(`${model.title}: meshes by weft, left, and CGAL, right`)}" width="1600" height="800">
+<img src="../pictures/${model.id}_${variant.id}_both.webp" alt="${escape(`${model.title}: meshes by weft, left, and CGAL, right`)}" width="1440" height="720">
 <button type="button">Open the viewer <small>${label}</small></button>
 </div>`;
 }
@@ -219,6 +220,7 @@ function table(model, variant) {
     columns[0].distance_over_approximation === undefined
       ? ""
       : line("Distance to the surface, times the bound asked", (r) => times(r.distance_over_approximation)),
+    spatial ? line("All criteria hold", (r) => (r.mesher.startsWith("weft") ? (r.criteria_hold ? "yes" : "no") : undefined)) : "",
     line("User time, one thread", (r) => seconds(r.seconds)),
   ];
   return `<div class="scroller" tabindex="0" role="region" aria-label="Figures">

@@ -7,8 +7,8 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { launch } from "./browser.js";
 
-const size = { width: 1280, height: 960 };
-const wideSize = { width: 1600, height: 800 };
+const size = { width: 960, height: 720 };
+const wideSize = { width: 1440, height: 720 };
 
 /** What the pictures of a mesh show, by file name. */
 function scenes(model, variant) {

@@ -154,17 +154,16 @@ export class Panel {
   /** Shows what follows from the state. */
   refresh() {
     const { state, panes } = this.viewer;
-    this.scale.hidden = state.colour !== "quality" || state.glass;
-    const names = { weft: "weft", cgal: "CGAL" };
-    this.counts.textContent =
-      state.below > 0
-        ? panes
-            .map(({ name, mesh }) => {
-              const [some, all] = [mesh.cellsBelow(state.below), mesh.count].map((n) => n.toLocaleString("en"));
-              return `${names[name]}: ${some} of ${all}`;
-            })
-            .join(" · ")
-        : "";
+    // Hidden, but with its room kept: the canvas shouldn't change its size.
+    this.scale.style.visibility = state.colour !== "quality" || state.glass ? "hidden" : "visible";
+    const integer = (n) => n.toLocaleString("en");
+    const counts = panes
+      .map(({ name, mesh }) => {
+        const all = integer(mesh.count);
+        return `${{ weft: "weft", cgal: "CGAL" }[name]}: ${state.below > 0 ? `${integer(mesh.cellsBelow(state.below))} of ${all}` : all}`;
+      })
+      .join(" · ");
+    this.counts.textContent = `${counts} ${this.viewer.mesh.dimension === 3 ? "cells" : "triangles"}`;
     this.parent.closest(".viewer")?.setAttribute("data-mesher", state.mesher);
   }
 }
