@@ -23,7 +23,9 @@ export function histogram({ title, description, rows, upTo, binSize, tickEvery }
   const x = (degrees) => axes.left + (degrees / upTo) * (width - axes.left - axes.right);
   const y = (share) => height - axes.bottom - (share / most) * (height - axes.top - axes.bottom);
   const outline = (bins) =>
-    bins.map((share, i) => `L${x(i * binSize).toFixed(1)} ${y(share).toFixed(1)}H${x((i + 1) * binSize).toFixed(1)}`).join("");
+    bins
+      .map((share, i) => `L${x(i * binSize).toFixed(1)} ${y(share).toFixed(1)}H${x((i + 1) * binSize).toFixed(1)}`)
+      .join("");
   const classes = ["weft", "cgal"];
   const areas = shares
     .map((bins, i) => `<path class="area ${classes[i]}" d="M${x(0)} ${y(0)}${outline(bins)}V${y(0)}Z"/>`)
