@@ -4,9 +4,9 @@
 // calls it. What is checked is what is on the screen.
 
 import assert from "node:assert/strict";
-import { readdirSync } from "node:fs";
+import { existsSync, readdirSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 import { launch } from "../build/browser.js";
 
 const folder = resolve(process.argv[2]);
@@ -194,8 +194,7 @@ async function checkLanding(browser, models) {
     await checkImages(page);
     const links = await checkLinks(page);
     for (const name of models) assert.ok(links.includes(address(`models/${name}`)), `no link to ${name}`);
-    for (const link of new Set(links)) assert.equal((await page.goto(link)) !== undefined, true);
-    await page.goto(address("index.html"));
+    for (const link of links) assert.ok(existsSync(fileURLToPath(link)), `${link} is missing`);
     await page.setViewportSize({ width: 360, height: 740 });
     await checkWidth(page);
     backgrounds.push(await page.evaluate(() => getComputedStyle(document.body).backgroundColor));
