@@ -68,7 +68,7 @@ C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria, const char* nam
   std::printf("| %s |", name);
   double begin = benchmark::user_seconds();
   weft::Mesh_report_3 report;
-  weft::Mesh_options_3 options;
+  weft::Mesh_options_3 options = weft::mesh_options_for_c3t3();
   options.time_limit = 120;
   if (const char* angle = std::getenv("WEFT_EXAMPLES_ANGLE")) options.min_dihedral_angle = std::atof(angle);
   const C3t3 mine = weft::make_mesh_3<C3t3>(domain, criteria, options, &report);

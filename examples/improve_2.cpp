@@ -4,11 +4,10 @@
 // writes the mesh, a picture of its angles before and after, and figures. `improve_2 --help` says how to call it.
 
 #include "command_line.h"
-#include "meshing_progress.h"
+#include "improve_program.h"
 
 #include <weft/IO/read_triangle_mesh.h>
 #include <weft/IO/report_json.h>
-#include <weft/IO/svg_histogram.h>
 #include <weft/IO/write_mesh_2.h>
 #include <weft/optimise_2.h>
 
@@ -16,22 +15,16 @@
 
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <functional>
-#include <iostream>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
 
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = weft::Triangle_mesh_2<K>;
-using command_line::complete;
 using command_line::Error;
 using command_line::Status;
-using command_line::stopped_early;
 
 // ---- What is asked for
 
@@ -81,39 +74,17 @@ std::string help()
          "is written.\n";
 }
 
-struct Request
+struct Request : improve_program::Files
 {
-  std::string input;
   weft::Improve_options_2 options;
   double min_angle = 0; ///< 0: not asked for
-  std::vector<std::string> outputs;
-  std::string histogram, report;
-  bool quiet = false;
 };
-
-void read_filenames(const command_line::Arguments& arguments, Request& request)
-{
-  if (arguments.operands().empty()) throw Error("no input file; improve_2 --help shows the usage");
-  if (arguments.operands().size() > 1) throw Error("more than one input file: '" + arguments.operands()[1] + "'");
-  request.input = arguments.operands().front();
-  request.outputs = arguments.values("--output");
-  for (const std::string& filename : request.outputs)
-    if (!weft::IO::is_mesh_filename(filename))
-      throw Error("--output: '" + filename + "' should end in .vtu, .mesh, .msh, .off or .svg");
-  request.histogram = arguments.filename("--histogram", ".svg");
-  request.report = arguments.filename("--report", ".json");
-}
 
 void read_options(const command_line::Arguments& arguments, Request& request)
 {
   auto& options = request.options;
-  const std::string boundary = arguments.value("--boundary");
-  if (!boundary.empty() && boundary != "slide" && boundary != "fixed")
-    throw Error("--boundary: '" + boundary + "' is neither slide nor fixed");
-  options.boundary = boundary == "fixed" ? weft::Boundary_2::fixed : weft::Boundary_2::slide;
-  if (boundary == "fixed")
-    for (const char* option : {"--corner-angle", "--deviation"})
-      if (arguments.has(option)) throw Error(std::string(option) + " is for boundaries that slide");
+  const bool is_fixed = improve_program::read_boundary_is_fixed(arguments, {"--corner-angle", "--deviation"});
+  options.boundary = is_fixed ? weft::Boundary_2::fixed : weft::Boundary_2::slide;
   options.corner_angle = arguments.number("--corner-angle", 0, 90).value_or(options.corner_angle);
   options.deviation = arguments.number("--deviation", 0, 1).value_or(options.deviation);
   request.min_angle = arguments.number("--min-angle", 0, 60).value_or(0);
@@ -126,22 +97,13 @@ void read_options(const command_line::Arguments& arguments, Request& request)
 Request read_request(const command_line::Arguments& arguments)
 {
   Request request;
-  read_filenames(arguments, request);
+  improve_program::read_files(arguments, "improve_2", weft::IO::is_mesh_filename, ".vtu, .mesh, .msh, .off or .svg",
+                              request);
   read_options(arguments, request);
-  request.quiet = arguments.has("--quiet");
   return request;
 }
 
-// ---- Input and output
-
-/// The mesh of the input; says what was left out of it.
-Mesh read_mesh(const Request& request)
-{
-  auto input = weft::IO::read_triangle_mesh<K>(request.input);
-  for (const std::string& note : input.notes)
-    if (!request.quiet) command_line::complain("improve_2", request.input + ": " + note);
-  return std::move(input.mesh);
-}
+// ---- The run
 
 /// What keeps the mesh from what was asked for, as one line; empty if nothing does.
 std::string what_is_missing(const Request& request, const weft::Improve_report_2& report)
@@ -153,59 +115,21 @@ std::string what_is_missing(const Request& request, const weft::Improve_report_2
     append("the smallest angle is " +
            weft::internal::one_decimal(std::floor(10 * report.after.smallest_angle.degrees) / 10) + " degrees, not " +
            weft::internal::one_decimal(request.min_angle));
-  const auto reason = report.stop_reason;
-  if (reason != weft::Stop_reason::criteria_met && reason != weft::Stop_reason::exhausted)
-    return std::string("stopped early, ") + name(reason) + (text.empty() ? "" : ": ") + text;
-  return text;
+  return improve_program::with_stop_reason(report.stop_reason, text);
 }
 
-void write_files(const Request& request, const Mesh& mesh, const weft::Improve_report_2& report,
-                 command_line::Output_files& files)
-{
-  for (const std::string& filename : request.outputs)
-    files.add(filename, [&](const std::string& name) { weft::IO::write_mesh_2(name, mesh); });
-  if (!request.report.empty())
-    files.add(request.report, [&](const std::string& name) { weft::IO::write_report_json(name, report); });
-  if (!request.histogram.empty())
-    files.add(request.histogram, [&](const std::string& name) {
-      const std::string title = "Angles: " + std::filesystem::path(request.input).filename().string();
-      weft::IO::write_angle_histogram_svg(name, report.after.histogram<weft::Angle_histogram>("after"),
-                                          report.before.histogram<weft::Angle_histogram>("before"), title);
-    });
-  files.commit();
-}
-
-// ---- The run
-
-/// Improves, writes all files and tells how it went.
 Status run(const Request& request)
 {
-  command_line::Output_files files;
-  const Mesh input = read_mesh(request);
-  for (const std::string& filename : request.outputs) files.announce(filename);
-  for (const std::string& filename : {request.histogram, request.report})
-    if (!filename.empty()) files.announce(filename);
-
-  const command_line::Interruption interruption;
-  Meshing_progress progress(!request.quiet, 0.1);
-  weft::Improve_options_2 options = request.options;
-  options.visitor = std::ref(progress);
-  const auto [mesh, report] = [&] {
-    try {
-      return weft::optimise_2(input, options);
-    } catch (const weft::Domain_error& error) {
-      throw Error(request.input + ": " + error.what());
-    }
-  }();
-  progress.bar().clear();
-
-  for (const std::string& note : report.notes)
-    if (!request.quiet) command_line::complain("improve_2", request.input + ": " + note);
-  write_files(request, mesh, report, files);
-  if (!request.quiet) std::cout << report << std::flush;
-  const std::string missing = what_is_missing(request, report);
-  if (!missing.empty()) command_line::complain("improve_2", missing);
-  return missing.empty() ? complete : stopped_early;
+  return improve_program::run(
+      "improve_2", request, [](const std::string& name) { return weft::IO::read_triangle_mesh<K>(name); },
+      [&request](const Mesh& input, const weft::Visitor& visitor) {
+        weft::Improve_options_2 options = request.options;
+        options.visitor = visitor;
+        return weft::optimise_2(input, options);
+      },
+      "", [](const std::string& name, const Mesh& mesh) { weft::IO::write_mesh_2(name, mesh); },
+      [](const std::string& name, const weft::Improve_report_2& report) { weft::IO::write_report_json(name, report); },
+      [&request](const weft::Improve_report_2& report) { return what_is_missing(request, report); }, "Angles");
 }
 
 } // namespace

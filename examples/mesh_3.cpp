@@ -11,7 +11,7 @@
 #include <weft/IO/report_json_3.h>
 #include <weft/IO/svg_histogram.h>
 #include <weft/IO/write_mesh_3.h>
-#include <weft/make_mesh_3.h>
+#include <weft/mesh_surface_3.h>
 #include <weft/spatial/features_3.h>
 #include <weft/spatial/Label_image_3.h>
 #include <weft/spatial/merge_surfaces_3.h>
@@ -260,6 +260,16 @@ void write_files(const Request& request, const Mesh& mesh, const weft::Mesh_repo
 
 // ---- The run
 
+template <class Oracle>
+auto make_mesh(const Oracle& oracle, const weft::Criteria_3<K>& criteria, const weft::Mesh_options_3& options)
+{
+  return weft::make_mesh_3(oracle, criteria, options);
+}
+auto make_mesh(const Complex& surface, const weft::Criteria_3<K>& criteria, const weft::Mesh_options_3& options)
+{
+  return weft::mesh_surface_3(surface, criteria, options);
+}
+
 /// Meshes, writes all files and tells how it went.
 /// \param domain an oracle or the complex of a surface. \param box around it.
 /// \param detail size of the smallest details of the input that count, in its units; 0 if all do.
@@ -281,7 +291,7 @@ Status mesh(const Request& request, const Domain& domain, const CGAL::Bbox_3& bo
   const double approximation = request.approximation.in(extent);
   criteria.approximation = request.approximation_is_given ? approximation : std::max(approximation, 0.6 * detail);
   options.size_floor = 0.3 * detail;
-  const auto result = weft::make_mesh_3(domain, criteria, options);
+  const auto result = make_mesh(domain, criteria, options);
   progress.bar().clear();
 
   const Mesh tetrahedra = weft::tetrahedral_mesh(result.mesh);

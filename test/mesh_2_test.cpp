@@ -6,6 +6,7 @@
 
 #include "planar_fixtures.h"
 
+#include <weft/IO/read_pslg.h>
 #include <weft/make_mesh_2.h>
 #include <weft/sizing/Lfs_sizing_2.h>
 
@@ -746,6 +747,28 @@ void check_smallest_angle(const Domain& domain, double angle, weft::Seeding seed
 }
 
 } // namespace
+
+TEST_CASE("asking for more than can be had doesn't make a mesh worse, and the report says so")
+{
+  const Pslg plate = weft::IO::read_pslg<K>(WEFT_DATA_DIR "/plate.poly");
+  const auto mesh = [&plate](double angle) {
+    Mesh_options_2 options;
+    options.min_angle = angle;
+    Cdt cdt = triangulate(plate);
+    return mesh_and_check(cdt, plate, Uniform(12), options);
+  };
+  const Mesh_report_2 plain = mesh(0);
+  REQUIRE(plain.ok());
+  for (const double angle : {35, 40}) {
+    INFO(angle << " degrees");
+    const Mesh_report_2 report = mesh(angle);
+    CHECK(report.stop_reason == weft::Stop_reason::iteration_limit);
+    CHECK(report.below_min_angle > 0);
+    CHECK(report.oversized == 0);
+    CHECK(report.smallest_angle > plain.smallest_angle - 0.5);
+    CHECK(report.vertices < 5 * plain.vertices);
+  }
+}
 
 TEST_CASE("a smallest angle is reached")
 {

@@ -9,6 +9,7 @@
 
 #include <weft/IO/read_surface.h>
 #include <weft/make_mesh_3.h>
+#include <weft/mesh_surface_3.h>
 #include <weft/spatial/check_criteria_3.h>
 #include <weft/spatial/check_restricted_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
@@ -447,11 +448,11 @@ TEST_CASE("creases found by angle are given up where only they keep criteria fro
   const Criteria criteria = criteria_of(0.2, 0.01, false);
   Options options = refinement();
   options.give_up_creases = false;
-  const auto with_all = weft::make_mesh_3(complex, criteria, options);
+  const auto with_all = weft::mesh_surface_3(complex, criteria, options);
   CHECK(!with_all.report.ok());
   CHECK(with_all.report.creases_given_up == 0);
   options.give_up_creases = true;
-  const auto result = weft::make_mesh_3(complex, criteria, options);
+  const auto result = weft::mesh_surface_3(complex, criteria, options);
   CHECK(result.report.ok());
   CHECK(result.report.creases_given_up > 0);
   CHECK(result.domain->number_of_creases() < complex.creases.size());
@@ -460,7 +461,7 @@ TEST_CASE("creases found by angle are given up where only they keep criteria fro
 
   auto given = complex;
   for (auto& crease : given.creases) crease.given = true;
-  const auto kept = weft::make_mesh_3(given, criteria, options);
+  const auto kept = weft::mesh_surface_3(given, criteria, options);
   CHECK(kept.report.creases_given_up == 0);
   CHECK(same(weft::tetrahedral_mesh(kept.mesh), weft::tetrahedral_mesh(with_all.mesh)));
 }
@@ -469,7 +470,7 @@ TEST_CASE("giving up creases that isn't enough leaves the mesh with all of them"
 {
   const auto surface = surfaces::wedge(8);
   const auto complex = weft::piecewise_smooth_complex(surface.points, surface.triangles, {});
-  const auto result = weft::make_mesh_3(complex, criteria_of(0.2, 0.01), refinement());
+  const auto result = weft::mesh_surface_3(complex, criteria_of(0.2, 0.01), refinement());
   CHECK(!result.report.ok());
   CHECK(result.report.creases_given_up == 0);
   CHECK(result.domain->number_of_creases() == complex.creases.size());

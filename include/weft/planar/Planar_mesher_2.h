@@ -101,6 +101,7 @@ private:
   // Angles below this are refined even if nobody asks for it. On details of the input finer than the size the pliant
   // step's budget leaves angles of 18 to 23 degrees; 25 cost 0 to 4 % more vertices there, 28 up to 40 %.
   static constexpr double mended_angle = 25;
+  static constexpr std::size_t angle_growth = 4;
   static constexpr int most_pliant_passes = 6, most_rounds = 8, most_fruitless_batches = 60, most_local_sweeps = 4,
                        most_polishing_passes = 30;
 
@@ -176,6 +177,7 @@ private:
       if (options_.polish) timed(Stage::polishing, [this] { hop(); });
       refiner_.set_min_angle(options_.min_angle);
       bad_ = refiner_.find_bad();
+      if (has_given_up_) break;
       if (bad_ == 0) return; // a ratio of 1 is judged by its square there: rounding may tell them apart
     }
     stop_mending();
@@ -224,6 +226,7 @@ private:
     bool polished = false;
     while (!is_stopped()) {
       bad_ = refiner_.find_bad();
+      if (sized_vertices_ == 0 && refiner_.oversized() == 0) sized_vertices_ = mesh_.vertices().size();
       if (bad_ == 0 || !go_on()) return;
       if (options_.polish && refiner_.largest_ratio() < Batch_refiner_2<Mesh>::near_goal) {
         timed(Stage::polishing, [this] { polish_sizes(); });
@@ -238,21 +241,48 @@ private:
       fruitless = bad_ < fewest ? 0 : fruitless + 1;
       fewest = (std::min)(fewest, bad_);
       if (is_stuck(fruitless)) {
-        if (!is_mending_) return stop(Stop_reason::iteration_limit);
-        stop_mending();
+        if (is_mending_)
+          stop_mending();
+        else if (can_give_up())
+          give_up_angle();
+        else
+          return stop(Stop_reason::iteration_limit);
+        fewest = std::numeric_limits<std::size_t>::max();
+        polished = false;
         continue;
       }
       timed(Stage::refinement, [this] { refine(); });
     }
   }
 
+  /// Whether only an angle is missing that is more than refinement can be sure of.
+  bool can_give_up() const
+  {
+    return !has_given_up_ && refiner_.oversized() == 0 && options_.polish && options_.min_angle > mended_angle;
+  }
+
+  /// Goes on for an angle that can be had: where refinement is stuck it leaves angles far below the one asked for. A
+  /// plate with details finer than the size, asked for 35 degrees, ended with 23030 triangles and 9.8 degrees.
+  void give_up_angle()
+  {
+    has_given_up_ = true;
+    refiner_.set_min_angle(mended_angle);
+    bad_ = refiner_.find_bad();
+  }
+
   /// Batches that lower sizes may well find more bad elements than before; those for angles alone have no such excuse.
   bool is_stuck(int fruitless) const
   {
     if (is_mending_ && mesh_.vertices().size() >= (std::min)(most_mended_vertices_, options_.max_vertices)) return true;
+    if (refiner_.oversized() == 0 && options_.min_angle > mended_angle && !has_given_up_ &&
+        mesh_.vertices().size() >= most_angle_vertices())
+      return true;
     return report_.batches >= static_cast<std::size_t>(options_.max_batches) ||
            (refiner_.oversized() == 0 && fruitless >= most_fruitless_batches);
   }
+
+  /// What refinement for angles may take: several times as many vertices as sizes need say that it doesn't end.
+  std::size_t most_angle_vertices() const { return least_insertions + angle_growth * sized_vertices_; }
 
   void refine()
   {
@@ -332,6 +362,8 @@ private:
   std::size_t bad_ = 0;
   std::size_t most_mended_vertices_ = 0;
   bool is_mending_ = false;
+  bool has_given_up_ = false;      ///< the angle asked for
+  std::size_t sized_vertices_ = 0; ///< when all sizes held for the first time
 };
 
 } // namespace weft
