@@ -14,14 +14,13 @@
 #include "optimisation_models.h"
 #include "optimisation_run.h"
 #include "planar_table.h"
+#include "program.h"
 
 #include <weft/errors.h>
 
 #include <CGAL/version.h>
 
-#include <cstdlib>
-#include <exception>
-#include <fstream>
+#include <cstddef>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -41,38 +40,24 @@ struct Arguments
   double seconds() const { return farthest > 0 ? farthest : quick ? 20 : 60; }
 };
 
-Arguments parse(int argc, char** argv)
+Arguments parse(Argument_reader reader)
 {
   Arguments a;
-  for (int i = 1; i < argc; ++i) {
-    const std::string arg = argv[i];
-    const auto value = [&]() -> std::string {
-      if (i + 1 >= argc) throw weft::Option_error(arg + " needs a value");
-      return argv[++i];
-    };
-    const auto number = [&] {
-      const std::string digits = value();
-      char* end = nullptr;
-      const double result = std::strtod(digits.c_str(), &end);
-      if (digits.empty() || *end || !(result > 0)) throw weft::Option_error(arg + " needs a positive number");
-      return result;
-    };
-    if (arg == "--quick")
+  while (reader.next()) {
+    if (reader.is("--quick"))
       a.quick = true;
-    else if (arg == "--only")
-      a.only = value();
-    else if (arg == "--tables")
-      a.tables = value();
-    else if (arg == "--farthest")
-      a.farthest = number();
-    else if (arg == "--time-limit")
-      a.time_limit = static_cast<unsigned>(number());
-    else if (arg == "--json")
-      a.json = value();
-    else if (arg.rfind("--", 0) == 0)
-      throw weft::Option_error("unknown option " + arg);
+    else if (reader.is("--only"))
+      a.only = reader.value();
+    else if (reader.is("--tables"))
+      a.tables = reader.value();
+    else if (reader.is("--farthest"))
+      a.farthest = reader.positive();
+    else if (reader.is("--time-limit"))
+      a.time_limit = static_cast<unsigned>(reader.positive());
+    else if (reader.is("--json"))
+      a.json = reader.value();
     else
-      a.folder = arg;
+      a.folder = reader.operand();
   }
   if (a.folder.empty()) throw weft::Option_error("needs the folder of the models");
   return a;
@@ -250,6 +235,40 @@ std::vector<Best_row> best_rows(const Spatial_domain& domain, const Bounds& boun
   return rows;
 }
 
+// ---- JSON
+
+std::string json(const Smoother_run& r)
+{
+  Json_object o;
+  o.add("input", r.input).add("refined", r.nodt[1].before);
+  const auto counts = [](const Sweep_counts(&m)[2]) {
+    Json_object c; // without criteria, as in the thesis, and with
+    c.add("free_20", m[1].after_20).add("free_100", m[1].after_100);
+    return c.add("kept_20", m[0].after_20).add("kept_100", m[0].after_100).str();
+  };
+  return o.add_raw("nodt", counts(r.nodt)).add_raw("odt", counts(r.odt)).add_raw("lloyd", counts(r.lloyd)).str();
+}
+
+std::string json(const Bound_times& times)
+{
+  Json_object o;
+  for (std::size_t i = 0; i < Bound_times::bounds.size(); ++i)
+    if (times.seconds[i] >= 0) o.add(text(Bound_times::bounds[i], 0), times.seconds[i]);
+  return o.str();
+}
+
+std::string json(const Best_row& r)
+{
+  const Best_angles& m = r.measured;
+  Json_object o;
+  o.add("input", r.input).add("preparation", r.preparation);
+  if (m.failure[0]) return o.add("failed", m.failure).str();
+  o.add("before", m.before).add("combined", m.combined).add("random", m.random).add("exuded", m.exuded);
+  o.add("thesis_before", r.thesis_input).add("thesis_combined", r.thesis_combined);
+  o.add("thesis_random", r.thesis_random).add("thesis_exuded", r.thesis_exuded);
+  return o.add_raw("combined_seconds", json(m.combined_times)).add_raw("random_seconds", json(m.random_times)).str();
+}
+
 // ---- The whole
 
 class Tables
@@ -283,6 +302,7 @@ public:
     table('b', "Cells below 10° after so many sweeps, before perturbation", smoother_head(), false,
           [&](const Model& model, const Spatial_domain& domain) {
             smoothers.push_back(smoother_run(domain, model.bounds()));
+            smoothers_.push_back(json(smoothers.back()));
             print_smoothers(smoothers.back());
           });
     figures('b', smoother_figures(smoothers));
@@ -303,7 +323,10 @@ public:
     std::vector<Best_row> best;
     table('e', "As far as perturbation goes (table 3.1)", best_head(), true,
           [&](const Model& model, const Spatial_domain& domain) {
-            for (const Best_row& row : best_rows(domain, model.bounds(), a_.seconds())) best.push_back(row);
+            for (const Best_row& row : best_rows(domain, model.bounds(), a_.seconds())) {
+              best.push_back(row);
+              best_.push_back(json(row));
+            }
           });
     figures('e', best_figures(best));
     write_json();
@@ -338,27 +361,25 @@ private:
   void write_json() const
   {
     if (a_.json.empty()) return;
-    std::ofstream out(a_.json);
-    out << Json_object().add("cgal_version", CGAL_VERSION_STR).add_raw("figures", json_array(json_)).str() << "\n";
-    out.close();
-    if (!out) throw weft::File_error(a_.json, 0, "can't be written");
+    write_text(a_.json, Json_object()
+                            .add("cgal_version", CGAL_VERSION_STR)
+                            .add_raw("figures", json_array(json_))
+                            .add_raw("smoothers", json_array(smoothers_))
+                            .add_raw("best_angles", json_array(best_))
+                            .str());
   }
 
   const Arguments& a_;
   std::vector<std::pair<Model, Spatial_input>> inputs_;
-  std::vector<std::string> json_;
+  std::vector<std::string> json_, smoothers_, best_;
 };
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  try {
-    const Arguments arguments = parse(argc, argv);
+  return run_program("optimisation", [&] {
+    const Arguments arguments = parse({argc, argv});
     Tables(arguments).run();
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "optimisation: " << error.what() << "\n";
-    return 1;
-  }
+  });
 }

@@ -17,7 +17,9 @@
 #include <weft/spatial/smooth_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -369,10 +371,24 @@ inline Perturb_run perturb_run(const Spatial_domain& domain, const Bounds& bound
 
 // ---- As far as it goes
 
-/// A row of the thesis' table 3.1: smallest dihedral angles.
+/// User seconds until no dihedral angle was below so many degrees (figures 3.10 and 3.11 of the thesis).
+struct Bound_times
+{
+  static constexpr std::array<double, 8> bounds = {3, 5, 9, 13, 17, 21, 25, 28};
+  std::array<double, bounds.size()> seconds = {-1, -1, -1, -1, -1, -1, -1, -1}; ///< -1: never
+
+  void reached(double angle, double now)
+  {
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      if (seconds[i] < 0 && angle >= bounds[i]) seconds[i] = now;
+  }
+};
+
+/// A row of the thesis' table 3.1: smallest dihedral angles; and how long it took to get there.
 struct Best_angles
 {
   double before = -1, combined = -1, random = -1, exuded = -1;
+  Bound_times combined_times, random_times;
   char failure[200] = "";
 };
 
@@ -392,7 +408,7 @@ inline weft::Criteria_3<Spatial_kernel> topology_alone()
   return criteria;
 }
 
-/// The three ways in one process, each from its own refined and smoothed mesh.
+/// Table 3.1's three ways in one process, each from its own refined and smoothed mesh.
 inline Best_angles best_angles(const Spatial_domain& domain, const Bounds& bounds, Preparation preparation,
                                double limit)
 {
@@ -406,19 +422,27 @@ inline Best_angles best_angles(const Spatial_domain& domain, const Bounds& bound
     if (preparation == Preparation::odt) weft::smooth_3(mesh, criteria, options, weft::Odt_3());
     return mesh;
   };
-  const auto perturbed = [&](weft::Perturb_directions_3 directions) {
+  const auto perturbed = [&](weft::Perturb_directions_3 directions, Bound_times& times) {
     Weft_mesh mesh = prepared();
     weft::Perturb_options_3 options;
     options.target = 90;
     User_limit(limit).limit(options);
     options.directions = directions;
-    return weft::perturb_slivers_3(mesh, preparation == Preparation::none ? criteria : topology_alone(), options);
+    const double start = user_seconds();
+    options.go_on = [&times, start, within_limit = options.go_on](double angle) {
+      times.reached(angle, user_seconds() - start);
+      return within_limit(angle);
+    };
+    const auto report =
+        weft::perturb_slivers_3(mesh, preparation == Preparation::none ? criteria : topology_alone(), options);
+    times.reached(report.after, user_seconds() - start);
+    return report;
   };
   const auto run = [&](Best_angles& m) {
-    const weft::Perturb_report_3 combined = perturbed(weft::Perturb_directions_3::combined);
+    const weft::Perturb_report_3 combined = perturbed(weft::Perturb_directions_3::combined, m.combined_times);
     m.before = combined.before;
     m.combined = combined.after;
-    m.random = perturbed(weft::Perturb_directions_3::random).after;
+    m.random = perturbed(weft::Perturb_directions_3::random, m.random_times).after;
     m.exuded = smallest_dihedral(exude_with_cgal(prepared(), limit));
   };
   return in_child<Best_angles>(run, domain.time_limit());

@@ -5,6 +5,8 @@
 // Files are closed surfaces (.off, .obj, .stl, .ply). Without one: a sphere of 20,000 triangles. Times are user CPU
 // time; the two take turns, and the best of five rounds counts.
 
+#include "program.h"
+
 #include <weft/internal/cgal_aabb_tree.h>
 #include <weft/IO/read_surface.h>
 #include <weft/spatial/features_3.h>
@@ -253,21 +255,17 @@ void measure(const std::string& name, const Complex& complex, std::size_t n)
 
 int main(int argc, char** argv)
 {
-  try {
+  return benchmark::run_program("oracle_throughput", [&] {
+    benchmark::Argument_reader reader(argc, argv);
     std::vector<std::string> files;
     std::size_t queries = 20000;
-    for (int i = 1; i < argc; ++i) {
-      const std::string argument = argv[i];
-      if (argument == "--queries" && i + 1 < argc)
-        queries = std::stoul(argv[++i]);
+    while (reader.next()) {
+      if (reader.is("--queries"))
+        queries = static_cast<std::size_t>(reader.positive());
       else
-        files.push_back(argument);
+        files.push_back(reader.operand());
     }
     for (const std::string& file : files) measure(file.substr(file.find_last_of('/') + 1), read(file), queries);
     if (files.empty()) measure("sphere", sphere(100, 100), queries);
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    std::cerr << "oracle_throughput: " << error.what() << '\n';
-    return EXIT_FAILURE;
-  }
+  });
 }

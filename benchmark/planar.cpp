@@ -19,15 +19,13 @@
 #include "planar_run.h"
 #include "planar_sweep.h"
 #include "planar_table.h"
+#include "program.h"
 
 #include <weft/errors.h>
 #include <weft/sizing/Uniform_sizing.h>
 
 #include <CGAL/version.h>
 
-#include <cstdlib>
-#include <exception>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -46,43 +44,38 @@ struct Arguments
   std::vector<std::string> files;
 };
 
-Arguments parse(int argc, char** argv)
+std::vector<double> positive_numbers(const std::string& list)
+{
+  std::vector<double> numbers;
+  std::stringstream in(list);
+  for (std::string n; std::getline(in, n, ',');) numbers.push_back(Argument_reader::checked("--triangles", n, true));
+  return numbers;
+}
+
+Arguments parse(Argument_reader reader)
 {
   Arguments a;
-  const auto value = [&](int& i) -> std::string {
-    if (i + 1 >= argc) throw weft::Option_error(std::string(argv[i]) + " needs a value");
-    return argv[++i];
-  };
-  for (int i = 1; i < argc; ++i) {
-    const std::string arg = argv[i];
-    if (arg == "--large") {
+  while (reader.next()) {
+    if (reader.is("--large"))
       a.large = true;
-    } else if (arg == "--no-graded") {
+    else if (reader.is("--no-graded"))
       a.graded = false;
-    } else if (arg == "--no-sweep") {
+    else if (reader.is("--no-sweep"))
       a.sweep = false;
-    } else if (arg == "--only") {
-      a.only = value(i);
-    } else if (arg == "--time-limit") {
-      a.time_limit = std::strtod(value(i).c_str(), nullptr);
-    } else if (arg == "--json") {
-      a.json = value(i);
-    } else if (arg == "--gmsh") {
-      a.gmsh = value(i);
-    } else if (arg == "--folder") {
-      a.folder = value(i);
-    } else if (arg == "--triangles") {
-      a.triangles.clear();
-      std::stringstream list(value(i));
-      for (std::string n; std::getline(list, n, ',');) {
-        a.triangles.push_back(std::strtod(n.c_str(), nullptr));
-        if (!(a.triangles.back() > 0)) throw weft::Option_error("--triangles needs positive numbers, not " + n);
-      }
-    } else if (arg.rfind("--", 0) == 0) {
-      throw weft::Option_error("unknown option " + arg);
-    } else {
-      a.files.push_back(arg);
-    }
+    else if (reader.is("--only"))
+      a.only = reader.value();
+    else if (reader.is("--time-limit"))
+      a.time_limit = reader.positive();
+    else if (reader.is("--json"))
+      a.json = reader.value();
+    else if (reader.is("--gmsh"))
+      a.gmsh = reader.value();
+    else if (reader.is("--folder"))
+      a.folder = reader.value();
+    else if (reader.is("--triangles"))
+      a.triangles = positive_numbers(reader.value());
+    else
+      a.files.push_back(reader.operand());
   }
   return a;
 }
@@ -187,7 +180,7 @@ void print(const Sweep& s)
             << std::flush;
 }
 
-int run(const Arguments& a)
+void run(const Arguments& a)
 {
   const std::vector<Domain> domains = load(a);
   std::vector<Run> runs;
@@ -220,8 +213,7 @@ int run(const Arguments& a)
               << r.label() << ": " << r.stop << "\n";
     failed = true;
   }
-  if (a.json.empty()) return 0;
-  std::ofstream out(a.json);
+  if (a.json.empty()) return;
   Json_object document;
   document.add("cgal_version", CGAL_VERSION_STR).add_raw("runs", json_array(run_rows));
   if (sweep.vertices > 0)
@@ -233,20 +225,12 @@ int run(const Arguments& a)
                                   .add("late_sweep_seconds", sweep.late)
                                   .add("late_sweep_position_seconds", sweep.late_positions)
                                   .str());
-  out << document.add_raw("gmsh", json_array(gmsh_rows)).add_raw("figures", json_array(figure_rows)).str() << "\n";
-  out.close();
-  if (!out) throw weft::File_error(a.json, 0, "can't be written");
-  return 0;
+  write_text(a.json, document.add_raw("gmsh", json_array(gmsh_rows)).add_raw("figures", json_array(figure_rows)).str());
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::exception& error) {
-    std::cerr << "planar: " << error.what() << "\n";
-    return 1;
-  }
+  return run_program("planar", [&] { run(parse({argc, argv})); });
 }

@@ -102,11 +102,13 @@ private:
 };
 
 /// Writes a .geo file of the domain by nesting parity.
+/// \param size largest one; 0: left to Gmsh's caller.
 inline void write_geo(const Pslg& pslg, const Loops& loops, double size, const std::string& filename)
 {
   std::ofstream out(filename);
-  out << std::setprecision(17) << "Mesh.MeshSizeMax = " << size << ";\nMesh.MeshSizeExtendFromBoundary = 0;\n"
-      << "Mesh.MeshSizeFromPoints = 0;\nMesh.SaveAll = 1;\n";
+  out << std::setprecision(17);
+  if (size > 0) out << "Mesh.MeshSizeMax = " << size << ";\n";
+  out << "Mesh.MeshSizeExtendFromBoundary = 0;\nMesh.MeshSizeFromPoints = 0;\nMesh.SaveAll = 1;\n";
   for (std::size_t i = 0; i < pslg.points.size(); ++i)
     out << "Point(" << i + 1 << ") = {" << pslg.points[i].x() << ", " << pslg.points[i].y() << ", 0};\n";
   for (std::size_t i = 0; i < pslg.segments.size(); ++i)
@@ -148,13 +150,20 @@ inline Flat_mesh read_medit(const std::string& filename)
   std::set<std::pair<int, int>> constraints;
   std::string word;
   std::vector<Xy> points;
+  int dimension = 3;
   while (in >> word) {
     std::size_t n = 0;
     double z;
     int mark;
-    if (word == "Vertices" && in >> n) {
+    if (word == "Dimension") {
+      in >> dimension;
+    } else if (word == "Vertices" && in >> n) {
       points.resize(n);
-      for (Xy& p : points) in >> p[0] >> p[1] >> z >> mark;
+      for (Xy& p : points) {
+        in >> p[0] >> p[1];
+        if (dimension > 2) in >> z;
+        in >> mark;
+      }
     } else if (word == "Edges" && in >> n) {
       for (int a, b; n > 0 && in >> a >> b >> mark; --n) constraints.emplace(std::min(a, b) - 1, std::max(a, b) - 1);
     } else if (word == "Triangles" && in >> n) {

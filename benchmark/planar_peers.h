@@ -44,9 +44,9 @@ class Graded_size
 public:
   /// factor * (smallest + growth * distance from center)
   Graded_size(Xy center, double smallest, double growth) : center_(center), smallest_(smallest), growth_(growth) {}
-  /// factor * the 1-Lipschitz field from the local feature size
-  explicit Graded_size(const Pslg& pslg)
-      : growth_(1), lfs_(std::make_shared<const weft::Lfs_sizing_2<Kernel>>(pslg, 1.))
+  /// factor * the Lipschitz field from the local feature size, which grows by so much per unit of distance
+  explicit Graded_size(const Pslg& pslg, double growth = 1)
+      : growth_(growth), lfs_(std::make_shared<const weft::Lfs_sizing_2<Kernel>>(pslg, growth))
   {}
 
   double operator()(const Point& p) const

@@ -14,6 +14,7 @@
 #include "planar_measure.h"
 #include "planar_peers.h"
 #include "planar_table.h"
+#include "program.h"
 #include "quality_plot.h"
 #include "user_time.h"
 
@@ -22,7 +23,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -102,7 +102,7 @@ Series refine_then_cgal(const Domain& domain, double size)
 
 // ---- The picture
 
-int run(int argc, char** argv)
+void run(int argc, char** argv)
 {
   double triangles = 10000;
   std::string output = "quality_over_time.svg";
@@ -145,17 +145,11 @@ int run(int argc, char** argv)
       {"triangles / m_Δ", 0, 2.5, 0.5, 1, 1.58},
       {"longest edge / size (shown up to 2; an open disk: it ends above 1)", 0.5, 2, 0.5, 1, 1}};
   Plot(output, "Quality over time: " + input.name + ", " + text(triangles, 0) + " triangles asked", panels, series);
-  return 0;
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::cerr << "quality_over_time: " << error.what() << "\n";
-    return 1;
-  }
+  return run_program("quality_over_time", [&] { run(argc, argv); });
 }

@@ -13,6 +13,7 @@
 // --elevation: of the view.
 
 #include "planar_table.h"
+#include "program.h"
 #include "spatial_inputs.h"
 
 #include <weft/errors.h>
@@ -28,7 +29,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <map>
 #include <string>
@@ -265,23 +265,17 @@ private:
   std::array<double, 2> low_{HUGE_VAL, HUGE_VAL}, high_{-HUGE_VAL, -HUGE_VAL};
 };
 
-int run(const Arguments& a)
+void run(const Arguments& a)
 {
   const Spatial_input input = read_input(a.file, a["sharp-angle"]);
   const Oracle oracle(input.complex);
   const std::vector<Stage_picture> stages = make_stages(oracle, a);
   Drawing(a.output, input.name + ": cells below " + text(a["below"], 0) + "° and dihedral angles", stages, a);
-  return 0;
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::exception& error) {
-    std::cerr << "sliver_pictures: " << error.what() << "\n";
-    return 1;
-  }
+  return run_program("sliver_pictures", [&] { run(parse(argc, argv)); });
 }

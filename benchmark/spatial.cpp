@@ -13,6 +13,7 @@
 // unless given. The time limit is that of one mesh, 600 unless given.
 
 #include "planar_table.h"
+#include "program.h"
 #include "spatial_figures.h"
 #include "spatial_inputs.h"
 #include "spatial_run.h"
@@ -23,9 +24,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <exception>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -44,43 +42,29 @@ struct Arguments
   std::vector<std::pair<std::string, double>> files; ///< with their sharp angles
 };
 
-Arguments parse(int argc, char** argv)
+Arguments parse(Argument_reader reader)
 {
   Arguments a;
   double sharp_angle = 60;
-  const auto value = [&](int& i) -> std::string {
-    if (i + 1 >= argc) throw weft::Option_error(std::string(argv[i]) + " needs a value");
-    return argv[++i];
-  };
-  const auto number = [&](int& i) {
-    const std::string name = argv[i], digits = value(i);
-    char* end = nullptr;
-    const double result = std::strtod(digits.c_str(), &end);
-    if (digits.empty() || *end || !(result >= 0)) throw weft::Option_error(name + " needs a number, not " + digits);
-    return result;
-  };
-  for (int i = 1; i < argc; ++i) {
-    const std::string arg = argv[i];
-    if (arg == "--quick")
+  while (reader.next()) {
+    if (reader.is("--quick"))
       a.quick = true;
-    else if (arg == "--no-own")
+    else if (reader.is("--no-own"))
       a.own = false;
-    else if (arg == "--no-growth")
+    else if (reader.is("--no-growth"))
       a.growth = false;
-    else if (arg == "--only")
-      a.only = value(i);
-    else if (arg == "--most-vertices")
-      a.most_vertices = number(i);
-    else if (arg == "--time-limit")
-      a.time_limit = static_cast<unsigned>(number(i));
-    else if (arg == "--json")
-      a.json = value(i);
-    else if (arg == "--sharp-angle")
-      sharp_angle = number(i);
-    else if (arg.rfind("--", 0) == 0)
-      throw weft::Option_error("unknown option " + arg);
+    else if (reader.is("--only"))
+      a.only = reader.value();
+    else if (reader.is("--most-vertices"))
+      a.most_vertices = reader.positive();
+    else if (reader.is("--time-limit"))
+      a.time_limit = static_cast<unsigned>(reader.positive());
+    else if (reader.is("--json"))
+      a.json = reader.value();
+    else if (reader.is("--sharp-angle"))
+      sharp_angle = reader.number();
     else
-      a.files.emplace_back(arg, sharp_angle);
+      a.files.emplace_back(reader.operand(), sharp_angle);
   }
   return a;
 }
@@ -297,7 +281,7 @@ std::vector<Spatial_run> run_all(const Arguments& a)
   return runs;
 }
 
-int run(const Arguments& a)
+void run(const Arguments& a)
 {
   std::cout << "# weft against CGAL " << CGAL_VERSION_STR
             << " in space\n\nl bounds edges, ε the distance to the surface, in parts of the longest side; H is the "
@@ -314,28 +298,18 @@ int run(const Arguments& a)
     std::cout << markdown_row(f.cells());
     figure_rows.push_back(f.json());
   }
-  if (a.json.empty()) return 0;
-  std::ofstream out(a.json);
-  out << Json_object()
-             .add("cgal_version", CGAL_VERSION_STR)
-             .add_raw("runs", json_array(json_rows(runs)))
-             .add_raw("growth", json_array(json_rows(growth)))
-             .add_raw("figures", json_array(figure_rows))
-             .str()
-      << "\n";
-  out.close();
-  if (!out) throw weft::File_error(a.json, 0, "can't be written");
-  return 0;
+  if (a.json.empty()) return;
+  write_text(a.json, Json_object()
+                         .add("cgal_version", CGAL_VERSION_STR)
+                         .add_raw("runs", json_array(json_rows(runs)))
+                         .add_raw("growth", json_array(json_rows(growth)))
+                         .add_raw("figures", json_array(figure_rows))
+                         .str());
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::exception& error) {
-    std::cerr << "spatial: " << error.what() << "\n";
-    return 1;
-  }
+  return run_program("spatial", [&] { run(parse({argc, argv})); });
 }

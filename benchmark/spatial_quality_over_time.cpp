@@ -14,6 +14,7 @@
 
 #include "optimisation_run.h"
 #include "planar_table.h"
+#include "program.h"
 #include "quality_plot.h"
 #include "user_time.h"
 
@@ -22,7 +23,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -190,7 +190,7 @@ Series cgal_chain(const Spatial_domain& domain, const Bounds& bounds, const Argu
   return series;
 }
 
-int run(const Arguments& a)
+void run(const Arguments& a)
 {
   const Spatial_input input = read_input(a.file, a.sharp_angle);
   const Bounds bounds{0.1, 0.001, 2};
@@ -214,17 +214,11 @@ int run(const Arguments& a)
        {{"smallest dihedral angle, degrees (an open disk: criteria aren't kept)", 0, top, 5, 0, a.target},
         {"cells below 15°: decimal logarithm of their number + 1", 0, std::ceil(most), 1, 0, 0}},
        series);
-  return 0;
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::exception& error) {
-    std::cerr << "spatial_quality_over_time: " << error.what() << "\n";
-    return 1;
-  }
+  return run_program("spatial_quality_over_time", [&] { run(parse(argc, argv)); });
 }
