@@ -6,8 +6,11 @@ weft     --size l --approximation e --facet-shape r --cell-shape r
 CGAL     edge_size l, facet_size l / sqrt 3, cell_size l sqrt 6 / 4, facet_distance e, facet_angle asin(1 / 2r),
          cell_radius_edge_ratio r (the circumradii of regular simplices of edge l)
 TetGen   -q r -a V: V the volume of a regular tetrahedron of edge l; it keeps the surface's triangles, so needs no e
-Gmsh     MeshSizeMax l, lowered until no edge is longer; it has no bound of distance or shape
+Gmsh     MeshSizeMax l; it has no bound of distance or shape
 Netgen   maxh l, the same
+
+None of the last three bounds edges: l is lowered for them until no edge is longer than asked, in at most four runs. One
+that still keeps longer edges, mostly those of the given triangles, has them in the column "longest edge / l".
 """
 
 import math
@@ -34,7 +37,7 @@ class Mesher:
     """One way to a spatial mesh.
 
     :param command: (input, bounds, mesh file) -> command line; `input` has `off`, `stl` and `sharp_angle`.
-    :param bounds_edges: whether the tool bounds edges, or has no such size at all; else it is lowered.
+    :param bounds_edges: whether the tool bounds edges; else its size is lowered until no edge is longer.
     :param suffix: the format of its mesh.
     """
 
@@ -66,7 +69,7 @@ def gmsh_meshers(gmsh, anew):
     for algorithm, title in ((1, "Delaunay"), (10, "HXT")):
         for optimise, suffix in ((0, ""), (1, ", optimised")):
             found.append(Mesher(f"Gmsh {title}{suffix}", lambda i, b, out, a=algorithm, o=optimise: [
-                gmsh, "-3", "-nt", 1, "-format", "msh22", "-o", out, gmsh_file(i, b, out, a, o, anew)], not anew, ".msh"))
+                gmsh, "-3", "-nt", 1, "-format", "msh22", "-o", out, gmsh_file(i, b, out, a, o, anew)], False, ".msh"))
     return found
 
 
@@ -81,13 +84,13 @@ def tetgen_meshers(tetgen, flags=""):
     def command(quality):
         return lambda i, b, out: [tetgen, f"-p{flags}q{quality(b)}a{b.volume():.12g}", tetgen_copy(i, out)]
     mesh = "_in.1.ele"
-    return [Mesher("TetGen", command(lambda b: f"{b.shape:g}"), suffix=mesh),
-            Mesher("TetGen, dihedral 18°", command(lambda b: "1.4/18O7"), suffix=mesh)]
+    return [Mesher("TetGen", command(lambda b: f"{b.shape:g}"), False, mesh),
+            Mesher("TetGen, dihedral 18°", command(lambda b: "1.4/18O7"), False, mesh)]
 
 
 def netgen_meshers(python, kind):
     return [Mesher(name, lambda i, b, out, o=optimise: [
-        python, NETGEN, kind, i.stl if kind == "surface" else i.off, out, b.size, o], kind == "boundary", ".msh")
+        python, NETGEN, kind, i.stl if kind == "surface" else i.off, out, b.size, o], False, ".msh")
             for name, optimise in (("Netgen, not optimised", 0), ("Netgen", 1))]
 
 
