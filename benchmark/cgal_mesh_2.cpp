@@ -39,10 +39,13 @@ void run(Argument_reader arguments)
   }
   if (file.empty() || (size > 0) == (lfs > 0)) throw weft::Option_error("needs a file, and either --size or --lfs");
 
-  Cgal_cdt cdt(Domain(read_planar_input(file)).cgal);
+  const Pslg pslg = read_planar_input(file).pslg;
+  Cgal_cdt cdt;
+  weft::insert_pslg(cdt, pslg);
+  weft::mark_domain(cdt, pslg);
   const double start = user_seconds();
   if (lfs > 0)
-    refine_with_cgal(cdt, Graded_size(read_planar_input(file).pslg, lfs));
+    refine_with_cgal(cdt, Graded_size(pslg, lfs));
   else
     refine_with_cgal(cdt, size);
   const double refined = user_seconds();

@@ -99,6 +99,8 @@ def planar_row(r):
     notes = []
     if r["tries"] > 1:
         notes.append(f"size lowered, {r['tries']} tries")
+    if "lower_failed" in r:
+        notes.append("lower still: " + r["lower_failed"])
     if not (r["same_area"] and r["same_constraints"]):
         notes.append("**another domain**")
     if r["inverted"]:
@@ -150,6 +152,8 @@ def spatial_row(r, bounds):
     notes = []
     if r["tries"] > 1:
         notes.append(f"size lowered to {r['size_given']:.4f}, {r['tries']} tries")
+    if "lower_failed" in r:
+        notes.append("lower still: " + r["lower_failed"])
     if not r["oriented"]:
         notes.append("**cells turned over or flat**")
     if not r["manifold"]:

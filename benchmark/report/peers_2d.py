@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Planar meshers as processes: each gets the same graph and the same largest edge length, in its own terms."""
 
+import json
 import shutil
 
 from . import process
@@ -52,7 +53,6 @@ def meshers(programs, threads=1):
 def meshing_seconds(outcome):
     """User seconds of the process; of Netgen without those of starting Python, which it reports."""
     if '"meshing_seconds"' in outcome.output:
-        import json
         return json.loads(outcome.output.strip().splitlines()[-1])["meshing_seconds"]
     return outcome.seconds
 
@@ -63,24 +63,47 @@ def mesh_once(mesher, given, size, out, limit, measure):
     :param measure: (mesh file) -> measures, or raises ValueError.
     :returns: dict with measures, "seconds" (of the last run), "memory", "size_given", "tries"; or "failure".
     """
-    asked = size
-    for tries in range(1, 2 if mesher.bounds_edges else 7):
-        out.unlink(missing_ok=True)
-        outcome = process.run(mesher.command(given, asked, out), limit, mesher.statuses)
-        if outcome.failure:
-            return {"failure": outcome.failure}
-        if not out.exists() or out.stat().st_size == 0:
-            return {"failure": "wrote no mesh"}
-        try:
-            result = measure(out)
-        except ValueError as error:
-            return {"failure": f"its mesh can't be read: {error}"}
-        result.update(seconds=meshing_seconds(outcome), memory=outcome.memory, size_given=asked, tries=tries,
-                      stopped_early=outcome.status == 2)
-        ratio = max(result["longest_ratio"], result["longest_edge_ratio"])
-        if mesher.bounds_edges or ratio <= 1 + 1e-9:
+    return lowered(mesher.bounds_edges, 7, size, lambda asked, tries: once(mesher, given, asked, out, limit, measure))
+
+
+def once(mesher, given, size, out, limit, measure):
+    out.unlink(missing_ok=True)
+    outcome = process.run(mesher.command(given, size, out), limit, mesher.statuses)
+    result = measured(outcome, out, measure)
+    if "failure" not in result:
+        result["ratio"] = max(result["longest_ratio"], result["longest_edge_ratio"])
+    return result
+
+
+def measured(outcome, mesh, measure):
+    """What a mesher's run has left, measured; or why not."""
+    if outcome.failure:
+        return {"failure": outcome.failure}
+    if not mesh.exists() or mesh.stat().st_size == 0:
+        return {"failure": "wrote no mesh"}
+    try:
+        result = measure(mesh)
+    except ValueError as error:
+        return {"failure": f"its mesh can't be used: {error}"}
+    return {**result, "seconds": meshing_seconds(outcome), "memory": outcome.memory,
+            "stopped_early": outcome.status == 2}
+
+
+def lowered(bounds_edges, most_tries, size, attempt):
+    """Lowers a size until the longest edge is as asked, where the tool doesn't see to that. Where a lower size fails,
+    the last mesh stays, with the failure as "lower_failed".
+
+    :param attempt: (size, number of the try) -> result with "ratio", longest edge / asked; or with "failure".
+    """
+    result, asked = None, size
+    for tries in range(1, 2 if bounds_edges else most_tries):
+        found = attempt(asked, tries)
+        if "failure" in found:
+            return {**result, "lower_failed": found["failure"]} if result else found
+        result = {**found, "size_given": asked, "tries": tries}
+        if result["ratio"] <= 1 + 1e-9:
             break
-        asked *= 0.998 / ratio
+        asked *= 0.998 / result["ratio"]
     return result
 
 

@@ -17,7 +17,7 @@ import math
 import shutil
 
 from . import process
-from .peers_2d import meshing_seconds
+from .peers_2d import lowered, measured, meshing_seconds
 
 NETGEN = __file__.replace("peers_3d.py", "netgen_mesh.py")
 CHAINS = (("CGAL refine", ""), ("CGAL + perturb", "perturb"), ("CGAL + exude", "exude"),
@@ -131,27 +131,17 @@ def mesh_file(mesher, out):
 
 def mesh_once(mesher, given, bounds, out, limit, measure, most_tries=4):
     """As peers_2d.mesh_once(), in space."""
-    asked = Bounds(bounds.size, bounds.approximation, bounds.shape)
     out = out.with_suffix(mesher.suffix) if mesher.suffix[0] == "." else out
     mesh = mesh_file(mesher, out)
-    for tries in range(1, 2 if mesher.bounds_edges else most_tries + 1):
+
+    def attempt(size, _):
         mesh.unlink(missing_ok=True)
-        outcome = process.run(mesher.command(given, asked, out), limit, mesher.statuses)
-        if outcome.failure:
-            return {"failure": outcome.failure}
-        if not mesh.exists() or mesh.stat().st_size == 0:
-            return {"failure": "wrote no mesh"}
-        try:
-            result = measure(mesh)
-        except ValueError as error:
-            return {"failure": f"its mesh can't be used: {error}"}
-        result.update(seconds=meshing_seconds(outcome), memory=outcome.memory, size_given=asked.size, tries=tries,
-                      longest_ratio=result["longest_edge"] / bounds.size, stopped_early=outcome.status == 2,
-                      file=str(mesh))
-        if mesher.bounds_edges or result["longest_ratio"] <= 1 + 1e-9:
-            break
-        asked.size *= 0.998 / result["longest_ratio"]
-    return result
+        asked = Bounds(size, bounds.approximation, bounds.shape)
+        result = measured(process.run(mesher.command(given, asked, out), limit, mesher.statuses), mesh, measure)
+        if "failure" not in result:
+            result["ratio"] = result["longest_ratio"] = result["longest_edge"] / bounds.size
+        return result
+    return lowered(mesher.bounds_edges, most_tries + 1, bounds.size, attempt)
 
 
 def repeat_times(mesher, given, bounds, result, out, limit, repeats):

@@ -22,7 +22,7 @@ class Outcome:
         self.status = status
         self.seconds = seconds  # user time
         self.wall = wall
-        self.memory = memory  # peak of the resident set, bytes
+        self.memory = memory  # peak of the resident set, bytes; not below what this script had when it started the program
         self.output = output
         self.log = log
 
