@@ -92,7 +92,8 @@ std::string write_spatial(const Spatial_input& input, const std::string& folder)
   surface.facets = input.complex.triangles;
   surface.patches.assign(surface.facets.size(), 0);
   surface.locations.resize(surface.points.size());
-  for (const char* type : {".off", ".stl"}) weft::IO::write_mesh_3(folder + "/" + stem(input.name) + type, surface);
+  weft::IO::write_mesh_3(folder + "/" + stem(input.name) + ".off", surface);
+  write_text(folder + "/" + stem(input.name) + ".stl", ascii_stl(input.complex));
   return Json_object()
       .add("name", stem(input.name))
       .add("sharp_angle", input.sharp_angle)
