@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -265,6 +266,21 @@ TEST_CASE("a mesh of random vertices becomes a good one of the same domain with 
       CHECK(report.after.smallest_angle.degrees >= 30);
     }
   }
+}
+
+TEST_CASE("the manual's lines improve a mesh from a file and write it")
+{
+  weft::IO::write_mesh_2("part.msh", grid(8, 6, 0.6));
+
+  const auto input = weft::IO::read_triangle_mesh<K>("part.msh"); // input.notes: what was left out
+  const auto [mesh, report] = weft::optimise_2(input.mesh);
+  std::cout << report; // before and after
+  weft::IO::write_mesh_2("better.msh", mesh);
+
+  CHECK(report.after.smallest_angle.degrees > report.before.smallest_angle.degrees);
+  CHECK(same(weft::IO::read_triangle_mesh<K>("better.msh").mesh, mesh));
+  std::filesystem::remove("part.msh");
+  std::filesystem::remove("better.msh");
 }
 
 TEST_CASE("inverted triangles and slivers are mended, with a fixed boundary, too")
