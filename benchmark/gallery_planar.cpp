@@ -102,7 +102,7 @@ void run(const Gallery_arguments& a)
 
 int main(int argc, char** argv)
 {
-  return run_gallery_program("gallery_planar", [=] {
+  return run_program("gallery_planar", [=] {
     run({argc,
          argv,
          {{"output", ""}, {"triangles", "3000"}, {"field", "uniform"}, {"growth", "0.2"}, {"time-limit", "60"}}});

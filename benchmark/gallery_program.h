@@ -6,16 +6,12 @@
 #define WEFT_BENCHMARK_GALLERY_PROGRAM_H
 
 #include "planar_table.h"
+#include "program.h"
 
 #include <weft/errors.h>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdlib>
-#include <exception>
-#include <fstream>
-#include <iostream>
 #include <map>
 #include <string>
 #include <utility>
@@ -30,16 +26,13 @@ public:
   /// \param defaults all options that there are, without their dashes, with their default values.
   Gallery_arguments(int argc, char** argv, std::map<std::string, std::string> defaults) : options_(std::move(defaults))
   {
-    for (int i = 1; i < argc; ++i) {
-      const std::string arg = argv[i];
-      if (arg.rfind("--", 0) != 0) {
-        input_ = arg;
-        continue;
-      }
-      const auto option = options_.find(arg.substr(2));
-      if (option == options_.end()) throw weft::Option_error("unknown option " + arg);
-      if (i + 1 == argc) throw weft::Option_error(arg + " needs a value");
-      option->second = argv[++i];
+    for (Argument_reader arguments(argc, argv); arguments.next();) {
+      const std::string argument = arguments.argument();
+      const auto option = options_.find(argument.rfind("--", 0) == 0 ? argument.substr(2) : argument);
+      if (option == options_.end() || argument.rfind("--", 0) != 0)
+        input_ = arguments.operand();
+      else
+        option->second = arguments.value();
     }
     if (input_.empty()) throw weft::Option_error("needs the name of an input, or a file");
     if (text("output").empty()) throw weft::Option_error("needs --output");
@@ -51,12 +44,7 @@ public:
   /// \throws weft::Option_error if it isn't a number, or less than 0.
   double number(const std::string& option) const
   {
-    const std::string& digits = text(option);
-    char* end = nullptr;
-    const double result = std::strtod(digits.c_str(), &end);
-    if (digits.empty() || *end || !std::isfinite(result) || result < 0)
-      throw weft::Option_error("--" + option + " needs a number, not " + digits);
-    return result;
+    return Argument_reader::checked("--" + option, text(option), false);
   }
 
 private:
@@ -75,24 +63,7 @@ std::string counts_json(const std::array<std::size_t, N>& counts)
 /// Writes PREFIX.json: what was asked, and a row for each mesh.
 inline void write_gallery_json(const std::string& prefix, Json_object asked, const std::vector<std::string>& meshes)
 {
-  const std::string filename = prefix + ".json";
-  std::ofstream out(filename);
-  out << asked.add_raw("meshes", json_array(meshes)).str() << "\n";
-  out.close();
-  if (!out) throw weft::File_error(filename, 0, "can't be written");
-}
-
-/// Runs the program and says what it throws; its exit status.
-template <class Run>
-int run_gallery_program(const std::string& name, const Run& run)
-{
-  try {
-    run();
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    std::cerr << name << ": " << error.what() << "\n";
-    return EXIT_FAILURE;
-  }
+  write_text(prefix + ".json", asked.add_raw("meshes", json_array(meshes)).str());
 }
 
 } // namespace benchmark

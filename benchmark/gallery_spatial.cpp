@@ -252,7 +252,7 @@ void run(const Gallery_arguments& a)
 
 int main(int argc, char** argv)
 {
-  return run_gallery_program("gallery_spatial", [=] {
+  return run_program("gallery_spatial", [=] {
     run({argc,
          argv,
          {{"output", ""},
