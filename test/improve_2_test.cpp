@@ -278,7 +278,9 @@ TEST_CASE("the manual's lines improve a mesh from a file and write it")
   weft::IO::write_mesh_2("better.msh", mesh);
 
   CHECK(report.after.smallest_angle.degrees > report.before.smallest_angle.degrees);
-  CHECK(same(weft::IO::read_triangle_mesh<K>("better.msh").mesh, mesh));
+  const Mesh again = weft::IO::read_triangle_mesh<K>("better.msh").mesh; // Gmsh's files know no corners
+  CHECK(again.points == mesh.points);
+  CHECK(again.triangles == mesh.triangles);
   std::filesystem::remove("part.msh");
   std::filesystem::remove("better.msh");
 }
