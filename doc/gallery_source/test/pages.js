@@ -160,9 +160,13 @@ async function useViewer(page, section, camera, dimension) {
     await settled(page);
     await camera.shoot(canvas);
   }
-  for (const input of await section.locator("fieldset[data-key=colour] input").all()) {
-    const colour = await input.getAttribute("value");
-    if (await input.isChecked()) continue;
+  const inputs = await section.locator("fieldset[data-key=colour] input").all();
+  const colours = await Promise.all(inputs.map((input) => input.getAttribute("value")));
+  for (const colour of colours) {
+    // Against the first: two of the others may look alike, as a single patch and none do.
+    await pick("colour", colour === colours[0] ? colours[1] : colours[0]);
+    await settled(page);
+    await camera.shoot(canvas);
     await check(`colouring by ${colour}`, () => pick("colour", colour));
   }
   await check("highlighting", () => slide(/angle below/, 40));
