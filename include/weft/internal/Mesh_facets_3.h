@@ -46,17 +46,37 @@ inline bool same_sense(const std::array<std::size_t, 3>& a, const std::array<std
   return b[(start + 1) % 3] == a[1];
 }
 
-/// All facets of all cells; those of several cells stand beside each other. O(n log n) time.
+/// All facets of all cells; those of several cells stand beside each other. Vertices of cells must exist. O(n) time
+/// where vertices have boundedly many cells: facets are distributed to their first vertices, and sorted there.
 inline std::vector<Cell_facet_3> cell_facets(const std::vector<std::array<std::size_t, 4>>& cells)
 {
-  std::vector<Cell_facet_3> facets;
-  facets.reserve(4 * cells.size());
+  std::size_t n = 0;
+  for (const auto& cell : cells) n = (std::max)(n, 1 + *std::max_element(cell.begin(), cell.end()));
+  std::vector<std::size_t> end(n, 0); // of each vertex' facets, once they are all there
+  for (const auto& cell : cells)
+    for (int i = 0; i < 4; ++i) {
+      const auto v = outward_vertices(cell, i);
+      ++end[(std::min)({v[0], v[1], v[2]})];
+    }
+  for (std::size_t v = 0, sum = 0; v < n; ++v) {
+    const std::size_t count = end[v];
+    end[v] = sum;
+    sum += count;
+  }
+  std::vector<Cell_facet_3> facets(4 * cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c)
-    for (int i = 0; i < 4; ++i) facets.push_back({sorted(outward_vertices(cells[c], i)), c, i});
+    for (int i = 0; i < 4; ++i) {
+      const auto vertices = sorted(outward_vertices(cells[c], i));
+      facets[end[vertices[0]]++] = {vertices, c, i};
+    }
   // Ties between the cells of a facet are broken by their indices.
-  std::sort(facets.begin(), facets.end(), [](const Cell_facet_3& a, const Cell_facet_3& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.cell < b.cell;
-  });
+  const auto is_before = [](const Cell_facet_3& a, const Cell_facet_3& b) {
+    if (a.vertices[1] != b.vertices[1]) return a.vertices[1] < b.vertices[1];
+    return a.vertices[2] != b.vertices[2] ? a.vertices[2] < b.vertices[2] : a.cell < b.cell;
+  };
+  for (std::size_t v = 0, begin = 0; v < n; begin = end[v++])
+    std::sort(facets.begin() + static_cast<std::ptrdiff_t>(begin), facets.begin() + static_cast<std::ptrdiff_t>(end[v]),
+              is_before);
   return facets;
 }
 
