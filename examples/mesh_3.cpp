@@ -11,6 +11,7 @@
 #include <weft/IO/report_json_3.h>
 #include <weft/IO/svg_histogram.h>
 #include <weft/IO/write_mesh_3.h>
+#include <weft/make_mesh_3.h>
 #include <weft/mesh_surface_3.h>
 #include <weft/spatial/features_3.h>
 #include <weft/spatial/Label_image_3.h>

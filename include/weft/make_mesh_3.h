@@ -16,14 +16,10 @@
 #include <weft/report.h>
 #include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/extract_mesh_3.h>
-#include <weft/spatial/give_up_creases_3.h>
 #include <weft/spatial/Polyhedral_oracle_3.h>
 #include <weft/spatial/Restricted_delaunay_3.h>
 #include <weft/spatial/Spatial_mesher_3.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <memory>
 #include <utility>
 
 namespace weft {

@@ -14,8 +14,14 @@
 #define WEFT_MESH_SURFACE_3_H
 
 #include <weft/internal/timer.h>
-#include <weft/make_mesh_3.h>
+#include <weft/options.h>
+#include <weft/report.h>
+#include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/give_up_creases_3.h>
+#include <weft/spatial/Piecewise_smooth_complex_3.h>
+#include <weft/spatial/Polyhedral_oracle_3.h>
+#include <weft/spatial/Restricted_delaunay_3.h>
+#include <weft/spatial/Spatial_mesher_3.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -33,6 +39,50 @@ struct Mesh_surface_result_3
   Mesh_report_3 report;
 };
 
+namespace internal {
+
+/// One domain for a surface, and its mesher.
+template <class K>
+struct Surface_attempt_3
+{
+  using Oracle = Polyhedral_oracle_3<K>;
+
+  Surface_attempt_3(const Piecewise_smooth_complex_3<K>& complex, const Criteria_3<K>& criteria,
+                    const Mesh_options_3& all_options, double time_left)
+      : domain(std::make_shared<const Oracle>(complex)),
+        options(with_time_limit(all_options, time_left)),
+        mesher(*domain, criteria, options)
+  {
+    mesher.meet_criteria();
+    report = mesher.report();
+  }
+
+  void optimise()
+  {
+    mesher.optimise();
+    report = mesher.report();
+  }
+
+  /// Whether refinement ended by itself, with something bad or without.
+  bool has_ended() const
+  {
+    return report.stop_reason == Stop_reason::criteria_met || report.stop_reason == Stop_reason::exhausted;
+  }
+
+  static Mesh_options_3 with_time_limit(Mesh_options_3 options, double time)
+  {
+    options.time_limit = (std::max)(0.0, time);
+    return options;
+  }
+
+  std::shared_ptr<const Oracle> domain;
+  Mesh_options_3 options;
+  Spatial_mesher_3<Oracle> mesher;
+  Mesh_report_3 report;
+};
+
+} // namespace internal
+
 /// Meshes the domain that a surface bounds, and gives creases up that were found by angle where only they keep the
 /// criteria from holding: first those beside bad elements, in the end all. Creases that were given stay. Where giving
 /// up doesn't help, the mesh is the one with all creases. The report says how many were given up.
@@ -42,39 +92,38 @@ template <class K>
 Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, const Criteria_3<K>& criteria,
                                         const Mesh_options_3& options = Mesh_options_3())
 {
-  using Result = Mesh_surface_result_3<K>;
+  using Attempt = internal::Surface_attempt_3<K>;
+  criteria.check();
+  options.check();
   const internal::Timer timer;
-  const auto run = [&](Mesh_options_3 how) {
-    how.time_limit = (std::max)(0.0, options.time_limit - timer.seconds());
-    auto domain = std::make_shared<const Polyhedral_oracle_3<K>>(complex);
-    auto made = make_mesh_3(*domain, criteria, how);
-    return std::make_unique<Result>(Result{std::move(domain), std::move(made.mesh), std::move(made.report)});
+  const auto time_left = [&] { return options.time_limit - timer.seconds(); };
+  const auto result = [](Attempt& attempt, std::size_t given_up) {
+    attempt.report.creases_given_up = given_up;
+    return Mesh_surface_result_3<K>{attempt.domain, attempt.mesher.take_mesh(), std::move(attempt.report)};
   };
-  std::unique_ptr<Result> first = run(options), trial;
-  if (!options.give_up_creases || first->report.stop_reason != Stop_reason::exhausted) return std::move(*first);
-  Mesh_options_3 refinement = options; // which tells whether the creases left can be followed
-  refinement.coarsen = false;
-  refinement.smoothing_sweeps = 0;
-  refinement.min_dihedral_angle = 0;
+  const auto first = std::make_unique<Attempt>(complex, criteria, options, time_left());
+  // Optimisation may mend a facet or cell, so that creases can stay. A crease edge it doesn't: that is known sooner.
+  const bool gives_up_at_once = options.give_up_creases && first->report.bad_edges.elements > 0;
+  if (!gives_up_at_once) first->optimise();
+  if (!options.give_up_creases || first->report.stop_reason != Stop_reason::exhausted) return result(*first, 0);
+
+  std::unique_ptr<Attempt> trial;
   std::size_t given_up = 0;
   constexpr int rounds = 4;
   for (int round = 1; round <= rounds; ++round) {
-    const Result& last = trial ? *trial : *first;
-    auto which = creases_beside_bad_elements(last.mesh, criteria, complex);
+    auto which = creases_beside_bad_elements((trial ? *trial : *first).mesher.mesh(), criteria, complex);
     if (round == rounds) std::fill(which.begin(), which.end(), true);
     const std::size_t dropped = drop_creases(which, complex);
     if (dropped == 0) break;
     given_up += dropped;
-    trial = run(refinement);
-    if (trial->report.stop_reason != Stop_reason::criteria_met && trial->report.stop_reason != Stop_reason::exhausted)
-      break; // out of time, or cancelled
+    trial = std::make_unique<Attempt>(complex, criteria, options, time_left());
+    if (!trial->has_ended()) break; // out of time, or cancelled
     if (!trial->report.ok()) continue;
-    trial = run(options);
-    if (!trial->report.ok()) break;
-    trial->report.creases_given_up = given_up;
-    return std::move(*trial);
+    trial->optimise();
+    return result(*trial, given_up);
   }
-  return std::move(*first);
+  if (gives_up_at_once) first->optimise();
+  return result(*first, 0);
 }
 
 } // namespace weft

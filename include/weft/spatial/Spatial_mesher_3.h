@@ -74,22 +74,41 @@ public:
   /// Runs; afterwards `take_mesh()` has the mesh.
   Mesh_report_3 run()
   {
+    meet_criteria();
+    optimise();
+    return report();
+  }
+
+  /// The first half of `run()`: refines until the criteria hold or nothing more can be done.
+  void meet_criteria()
+  {
     begin_stage("initialisation", Stage::seeding);
-    bool go_on = initial_ ? take_initial() : seed();
+    goes_on_ = initial_ ? take_initial() : seed();
     begin_stage("surface", Stage::refinement);
-    go_on = go_on && refine_surface();
+    goes_on_ = goes_on_ && refine_surface();
     begin_stage("lattice", Stage::seeding);
-    if (go_on && initial_) insert_interior();
-    if (go_on && !initial_ && options_.lattice && criteria_.size.is_constant()) insert_lattice();
+    if (goes_on_ && initial_) insert_interior();
+    if (goes_on_ && !initial_ && options_.lattice && criteria_.size.is_constant()) insert_lattice();
     begin_stage("interior", Stage::refinement);
-    go_on = go_on && refine(1, true);
-    if (go_on && initial_ && initial_->only_manifold) go_on = check_manifold_3(tetrahedral_mesh(mesh_)).ok();
-    go_on = go_on && optimise();
+    goes_on_ = goes_on_ && refine(1, true);
+    if (goes_on_ && initial_ && initial_->only_manifold) goes_on_ = check_manifold_3(tetrahedral_mesh(mesh_)).ok();
+  }
+
+  /// The second half; does nothing if the first was stopped.
+  void optimise()
+  {
+    goes_on_ = goes_on_ && coarsen_and_smooth();
     begin_stage("perturbation", Stage::polishing);
-    if (go_on && options_.min_dihedral_angle > 0) perturb();
+    if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
+  }
+
+  /// The report so far.
+  Mesh_report_3 report()
+  {
     end_stage();
-    fill_report(mesh_, criteria_, size_floor(), report_);
-    return report_;
+    Mesh_report_3 result = report_;
+    fill_report(mesh_, criteria_, size_floor(), result);
+    return result;
   }
 
   /// The mesh as it is, also while a visitor is called.
@@ -245,7 +264,7 @@ private:
   /// Criteria come first, then vertices are taken away as long as they hold, and smoothing, which keeps them too, makes
   /// room for more of that: 4362, 3587 and 3229 vertices. What couldn't be refined before gets another chance at the
   /// end.
-  bool optimise()
+  bool coarsen_and_smooth()
   {
     if (!options_.coarsen && options_.smoothing_sweeps == 0) return true;
     report_.refined_smallest_dihedral = smallest_dihedral();
@@ -405,6 +424,7 @@ private:
   Restricted mesh_;
   std::optional<Criteria_guard_3<Restricted>> guard_; ///< from when refinement has ended
   Mesh_report_3 report_;
+  bool goes_on_ = false; ///< neither done nor stopped
   internal::Timer timer_;
   Stage stage_ = Stage::seeding;
   std::string stage_name_;
