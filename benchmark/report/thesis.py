@@ -222,8 +222,8 @@ def perturbation(rows, data):
         if "failed" in r:
             rows.fail("table 3.1", r["preparation"], theirs, r["input"], r["failed"])
             continue
-        for key, title in (("combined", "combined perturbation"), ("random", "random perturbation"),
-                           ("exuded", "CGAL's exudation")):
+        exuded = f" (CGAL's exudation {r['exuded']:.1f}°, the thesis' {r['thesis_exuded']:.1f}°)"
+        for key, title in (("combined", "combined perturbation" + exuded), ("random", "random perturbation")):
             rows.add("table 3.1", f"smallest dihedral angle, {r['preparation']}", theirs, r["input"], title,
                      r[f"thesis_{key}"], r[key], True, 1, "°")
         combined, at_random = r["combined_seconds"], r["random_seconds"]
