@@ -27,6 +27,7 @@
 #include <cstddef>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace weft {
 
@@ -85,7 +86,7 @@ struct Surface_attempt_3
 
 /// Meshes the domain that a surface bounds, and gives creases up that were found by angle where only they keep the
 /// criteria from holding: first those beside bad elements, in the end all. Creases that were given stay. Where giving
-/// up doesn't help, the mesh is the one with all creases. The report says how many were given up.
+/// up doesn't help much, the mesh is the one with all creases. The report says how many were given up.
 /// \param complex what `piecewise_smooth_complex()` makes of a surface, or of several.
 /// \throws Option_error for criteria or options out of range, or if a field of the criteria isn't positive.
 template <class K>
@@ -101,28 +102,42 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
     attempt.report.creases_given_up = given_up;
     return Mesh_surface_result_3<K>{attempt.domain, attempt.mesher.take_mesh(), std::move(attempt.report)};
   };
-  const auto first = std::make_unique<Attempt>(complex, criteria, options, time_left());
+  auto first = std::make_unique<Attempt>(complex, criteria, options, time_left());
+  if (!options.give_up_creases || first->report.stop_reason != Stop_reason::exhausted) {
+    first->optimise();
+    return result(*first, 0);
+  }
+  auto which = creases_beside_bad_elements(first->mesher.mesh(), criteria, complex);
   // Optimisation may mend a facet or cell, so that creases can stay. A crease edge it doesn't: that is known sooner.
-  const bool gives_up_at_once = options.give_up_creases && first->report.bad_edges.elements > 0;
-  if (!gives_up_at_once) first->optimise();
-  if (!options.give_up_creases || first->report.stop_reason != Stop_reason::exhausted) return result(*first, 0);
+  const bool is_hopeless = first->report.bad_edges.elements > 0;
+  if (!is_hopeless) first->optimise();
+  if (first->report.stop_reason != Stop_reason::exhausted) return result(*first, 0);
 
-  std::unique_ptr<Attempt> trial;
-  std::size_t given_up = 0;
+  std::unique_ptr<Attempt> best;
+  std::size_t given_up = 0, given_up_for_best = 0;
   constexpr int rounds = 4;
+  constexpr std::size_t much_less = 4;
   for (int round = 1; round <= rounds; ++round) {
-    auto which = creases_beside_bad_elements((trial ? *trial : *first).mesher.mesh(), criteria, complex);
-    if (round == rounds) std::fill(which.begin(), which.end(), true);
-    const std::size_t dropped = drop_creases(which, complex);
+    const std::vector<char> all(which.size(), true);
+    std::size_t dropped = drop_creases(round == rounds ? all : which, complex);
+    if (dropped == 0) dropped = drop_creases(all, complex); // none of those left is at fault on its own
     if (dropped == 0) break;
     given_up += dropped;
-    trial = std::make_unique<Attempt>(complex, criteria, options, time_left());
+    auto trial = std::make_unique<Attempt>(complex, criteria, options, time_left());
     if (!trial->has_ended()) break; // out of time, or cancelled
-    if (!trial->report.ok()) continue;
-    trial->optimise();
-    return result(*trial, given_up);
+    which = creases_beside_bad_elements(trial->mesher.mesh(), criteria, complex);
+    const bool is_good = trial->report.ok();
+    if (is_good || much_less * trial->report.bad() < (best ? best : first)->report.bad()) {
+      best = std::move(trial);
+      given_up_for_best = given_up;
+    }
+    if (is_good) break;
   }
-  if (gives_up_at_once) first->optimise();
+  if (best) {
+    best->optimise();
+    return result(*best, given_up_for_best);
+  }
+  if (is_hopeless) first->optimise();
   return result(*first, 0);
 }
 
