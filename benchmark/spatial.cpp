@@ -3,14 +3,15 @@
 // weft's make_mesh_3 against CGAL's (without its optimisers, the same bounds): vertices, distance to the surface,
 // validity, time, memory and questions to the oracle, in one run, one thread each. Prints Markdown.
 //
-//   spatial [--quick] [--only NAME] [--no-own] [--no-growth] [--most-vertices N] [--time-limit SECONDS] [--json FILE]
-//           [--sharp-angle DEG] [FILE ...]
+//   spatial [--quick] [--circumradii] [--only NAME] [--no-own] [--no-growth] [--most-vertices N] [--time-limit SECONDS]
+//           [--json FILE] [--sharp-angle DEG] [FILE ...]
 //
 // Surfaces are scaled to a longest side of 1 and meshed with edges up to 0.1, approximation 0.001 and 0.0005, shapes 2.
 // Edges of the files after a --sharp-angle are creases from that angle on; 60 unless given, 0 for no creases. Own
 // inputs, left out by --no-own: a cylinder like that, a sphere and nested spheres with edges up to 0.05 and 0.03 and no
-// approximation. --quick leaves out 0.0005 and 0.03. Growth: a sphere of 10,000 vertices up to --most-vertices, 500,000
-// unless given. The time limit is that of one mesh, 600 unless given.
+// approximation. --quick leaves out 0.0005 and 0.03. --circumradii: weft, too, is given CGAL's bounds of circumradii
+// instead of edges. Growth: a sphere of 10,000 vertices up to --most-vertices, 500,000 unless given. The time limit is
+// that of one mesh, 600 unless given.
 
 #include "planar_table.h"
 #include "program.h"
@@ -35,7 +36,7 @@ namespace {
 
 struct Arguments
 {
-  bool quick = false, own = true, growth = true;
+  bool quick = false, own = true, growth = true, circumradii = false;
   double most_vertices = 500000;
   unsigned time_limit = 600;
   std::string only, json;
@@ -49,6 +50,8 @@ Arguments parse(Argument_reader reader)
   while (reader.next()) {
     if (reader.is("--quick"))
       a.quick = true;
+    else if (reader.is("--circumradii"))
+      a.circumradii = true;
     else if (reader.is("--no-own"))
       a.own = false;
     else if (reader.is("--no-growth"))
@@ -256,7 +259,8 @@ void run_input(const Spatial_input& input, bool uniform, const Arguments& a, std
                                     : std::vector<Bounds>{{0.1, 0.001, 2}, {0.1, 0.0005, 2}};
   if (a.quick) all.resize(1);
   const Spatial_domain domain(input, a.time_limit);
-  for (const Bounds& bounds : all) {
+  for (Bounds bounds : all) {
+    bounds.circumradii = a.circumradii;
     const Spatial_run r = domain.compare(bounds, true);
     std::cout << markdown_row(main_row(r)) << std::flush;
     if (r.lowered_edge_size > 0) std::cout << markdown_row(lowered_row(r)) << std::flush;

@@ -31,6 +31,10 @@ struct Bounds
   double size = 0;          ///< longest edge
   double approximation = 0; ///< distance to the surface; 0: none
   double shape = 2;         ///< largest circumradius / shortest edge of facets and cells
+  bool circumradii = false; ///< whether weft, too, is given bounds of circumradii instead of edges
+
+  double facet_radius() const { return size / std::sqrt(3.); }
+  double cell_radius() const { return size * std::sqrt(6.) / 4; }
 };
 
 using Cgal_polyhedron = CGAL::Mesh_polyhedron_3<Spatial_kernel>::type;
@@ -60,9 +64,9 @@ auto cgal_criteria(const Bounds& bounds, double edge_size)
 #if CGAL_VERSION_NR >= 1060000000
       with::edge_distance = bounds.approximation, // 5.x has no such bound
 #endif
-      with::facet_angle = angle, with::facet_size = bounds.size / std::sqrt(3.),
+      with::facet_angle = angle, with::facet_size = bounds.facet_radius(),
       with::facet_distance = bounds.approximation, with::cell_radius_edge_ratio = bounds.shape,
-      with::cell_size = bounds.size * std::sqrt(6.) / 4);
+      with::cell_size = bounds.cell_radius());
 }
 
 inline Cgal_complex mesh_with_cgal(const Cgal_domain& domain, const Bounds& bounds, double edge_size)

@@ -16,6 +16,9 @@
 #include <weft/spatial/quality_3.h>
 #include <weft/spatial/validate_3.h>
 
+#include <CGAL/Kernel/global_functions.h>
+#include <CGAL/number_utils.h>
+
 #include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -23,6 +26,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
@@ -139,6 +143,15 @@ inline weft::Criteria_3<Spatial_kernel> weft_criteria(const Spatial_input& input
   criteria.approximation = bounds.approximation;
   criteria.facet_shape = criteria.cell_shape = bounds.shape;
   criteria.topology = input.is_creased();
+  if (!bounds.circumradii) return criteria;
+  criteria.size = 4 / std::sqrt(5.) * bounds.cell_radius(); // the longest edge of a body-centred lattice
+  criteria.crease_size = bounds.size;
+  criteria.facet_demand = [r = bounds.facet_radius()](const weft::Facet_view_3<Spatial_kernel>& f) {
+    return std::sqrt(CGAL::to_double(CGAL::squared_radius(*f.points[0], *f.points[1], *f.points[2]))) / r;
+  };
+  criteria.cell_demand = [r = bounds.cell_radius()](const weft::Cell_view_3<Spatial_kernel>& c) {
+    return std::sqrt(CGAL::to_double(CGAL::squared_distance(*c.points[0], *c.circumcenter))) / r;
+  };
   return criteria;
 }
 
