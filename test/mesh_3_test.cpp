@@ -15,7 +15,10 @@
 #include <weft/spatial/dihedral_angles_3.h>
 #include <weft/spatial/features_3.h>
 #include <weft/spatial/hausdorff_3.h>
+#include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/perturb_slivers_3.h>
+#include <weft/spatial/restart_3.h>
+#include <weft/spatial/Steiner_chooser_3.h>
 #include <weft/spatial/validate_3.h>
 
 #include <catch2/catch.hpp>
@@ -445,8 +448,11 @@ TEST_CASE("creases found by angle are given up where only they keep criteria fro
 {
   const auto soup = weft::IO::read_surface<K>(WEFT_TEST_DATA_DIR "/ball_with_sharp_noise.off");
   const auto complex = weft::piecewise_smooth_complex(soup);
-  const Criteria criteria = criteria_of(0.2, 0.01, false);
+  // On one side crease edges would have to be shorter than the size floor; patches don't have to.
+  Criteria criteria = criteria_of(0.2, 0.05, false);
+  criteria.crease_size = [](const Point& p) { return p.x() > 0 ? 0.024 : 1.; };
   Options options = refinement();
+  options.size_floor = 0.03;
   options.give_up_creases = false;
   const auto with_all = weft::mesh_surface_3(complex, criteria, options);
   CHECK(!with_all.report.ok());
@@ -670,4 +676,96 @@ TEST_CASE("what disagrees in a restricted triangulation is found")
   CHECK(faults() > 0);
   mesh.update();
   CHECK(faults() == 0);
+}
+
+TEST_CASE("the Steiner point chosen for a cell mends no less than its circumcenter")
+{
+  using Restricted = weft::Restricted_delaunay_3<Oracle>;
+  using Zone = Restricted::Zone;
+  const Oracle oracle = oracle_of(surfaces::sphere(3), 0);
+  const Criteria loose = criteria_of(0.3, 0.02), criteria = criteria_of(0.2, 0.02);
+  const auto begin = [&] { return std::move(weft::make_mesh_3(oracle, loose, refinement()).mesh); };
+  const auto squared = [](const Point& p, const Point& q) { return CGAL::to_double(CGAL::squared_distance(p, q)); };
+  // Marks bad cells as refinement does, and returns them, in an order that doesn't depend on memory.
+  const auto mark_bad_cells = [&criteria](const Restricted& mesh) {
+    const weft::Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+    std::vector<Restricted::Cell_handle> bad;
+    for (const auto c : mesh.triangulation().finite_cell_handles()) {
+      c->set_bad_index(-1);
+      if (c->subdomain() == 0 || !measure.cell(c).is_bad()) continue;
+      c->set_bad_index(static_cast<int>(bad.size()));
+      bad.push_back(c);
+    }
+    std::sort(bad.begin(), bad.end(), [](auto c, auto d) { return c->circumcenter() < d->circumcenter(); });
+    return bad;
+  };
+  constexpr int batch = 1 << 30; // nothing is claimed for it
+  const Restricted first = begin();
+  const std::size_t cells = mark_bad_cells(first).size();
+  REQUIRE(cells > 50);
+  int compared = 0, better = 0;
+  for (std::size_t k = 0; k < cells; k += cells / 25) {
+    std::array<std::size_t, 2> left{};
+    bool is_comparable = true;
+    for (const bool choosing : {true, false}) {
+      Restricted mesh = begin();
+      const auto bad = mark_bad_cells(mesh);
+      REQUIRE(bad.size() == cells);
+      const auto c = bad[k];
+      const weft::Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+      weft::Steiner_chooser_3<Restricted> chooser(mesh, measure, 1e-12);
+      Zone zone;
+      const auto result = choosing ? chooser.choose(c, batch, zone)
+                                   : weft::find_conflict_zone(mesh.triangulation(), c->circumcenter(), c, batch, zone);
+      is_comparable = is_comparable && result == weft::Zone_result::found && !chooser.encroached_facet(zone);
+      if (result != weft::Zone_result::found) continue;
+      if (choosing) {
+        CHECK(!chooser.encroached_facet(zone));
+        CHECK(chooser.nearest_in(zone) >= 0.35 * squared(c->circumcenter(), c->vertex(0)->point()));
+        CHECK(oracle.subdomain(zone.point) == c->subdomain());
+      }
+      // Cells outside would count for one side only.
+      for (const auto d : zone.cells) is_comparable = is_comparable && d->subdomain() == 1;
+      for (const auto& f : zone.hull) is_comparable = is_comparable && f.first->subdomain() == 1;
+      mesh.insert(zone, {3, 1});
+      mesh.update();
+      left[choosing ? 0 : 1] = mark_bad_cells(mesh).size();
+    }
+    if (!is_comparable) continue;
+    ++compared;
+    better += left[0] < left[1];
+    CHECK(left[0] <= left[1]);
+  }
+  CHECK(compared >= 5);
+  CHECK(better >= 1);
+}
+
+TEST_CASE("a mesh is built again from its vertices, and what is around bad elements can be left out")
+{
+  const Oracle oracle = oracle_of(surfaces::l_shape());
+  const auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05), refinement());
+  const auto& mesh = result.mesh;
+  CHECK(weft::bad_balls(mesh, criteria_of(0.5, 0.05), 1e-3).empty());
+  const auto all = weft::vertices_of(mesh);
+  weft::Restricted_delaunay_3<Oracle> again(oracle);
+  again.insert(all.points, all.locations);
+  CHECK(weft::check_restricted_3(again).ok());
+  CHECK(weft::tetrahedral_mesh(again).cells.size() == weft::tetrahedral_mesh(mesh).cells.size());
+
+  const auto balls = weft::bad_balls(mesh, criteria_of(0.4, 0.05), 1e-3);
+  REQUIRE(!balls.empty());
+  auto fewer = all;
+  weft::drop_vertices(balls, 1.01, fewer); // the vertices of an element lie on its ball
+  CHECK(fewer.points.size() < all.points.size());
+  CHECK(fewer.points.size() == fewer.locations.size());
+  const auto corners = [](const auto& vertices) {
+    return std::count_if(vertices.locations.begin(), vertices.locations.end(),
+                         [](auto at) { return at.dimension == 0; });
+  };
+  CHECK(corners(fewer) == corners(all));
+  for (std::size_t i = 0; i < fewer.points.size(); ++i)
+    if (fewer.locations[i].dimension > 0)
+      CHECK(std::none_of(balls.begin(), balls.end(), [&](const auto& b) {
+        return CGAL::squared_distance(b.center, fewer.points[i]) < 1.01 * 1.01 * b.squared_radius;
+      }));
 }

@@ -60,6 +60,7 @@ struct Surface_attempt_3
 
   void optimise()
   {
+    mesher.start_again_where_bad();
     mesher.optimise();
     report = mesher.report();
   }

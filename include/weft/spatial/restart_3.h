@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What it takes to refine a part of a mesh once more from fewer vertices. Beside acute edges that nobody marked,
+// whether refinement comes to an end is luck: the same dinosaur, whose knife edges of 23 degrees stand a thousandth of
+// its length apart, meets all criteria in one run and keeps some bad elements in another, for an approximation a tenth
+// finer. What went wrong there stays, since refinement takes nothing back.
+
+#ifndef WEFT_SPATIAL_RESTART_3_H
+#define WEFT_SPATIAL_RESTART_3_H
+
+#include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/measure_badness_3.h>
+#include <weft/spatial/topological_disk_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace weft {
+
+/// The vertices of a mesh: all that it takes to build it again.
+template <class K>
+struct Vertex_set_3
+{
+  std::vector<typename K::Point_3> points;
+  std::vector<Vertex_location_3> locations;
+};
+
+/// The vertices in the order of their ids. Linear.
+template <class Restricted>
+Vertex_set_3<typename Restricted::Kernel> vertices_of(const Restricted& mesh)
+{
+  Vertex_set_3<typename Restricted::Kernel> vertices;
+  for (const auto v : mesh.vertices()) {
+    vertices.points.push_back(v->point());
+    vertices.locations.push_back(v->location());
+  }
+  return vertices;
+}
+
+/// A ball in space.
+template <class K>
+struct Ball_3
+{
+  typename K::Point_3 center;
+  double squared_radius;
+};
+
+/// The Delaunay balls of all bad elements, surface Delaunay balls of facets and crease edges. Linear.
+/// \param least_radius of the balls around vertices without a topological disk.
+template <class Restricted>
+std::vector<Ball_3<typename Restricted::Kernel>>
+bad_balls(const Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria, double least_radius)
+{
+  std::vector<Ball_3<typename Restricted::Kernel>> balls;
+  const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+  for (const auto& e : mesh.creases().edges())
+    if (measure.crease_edge(e).is_bad()) balls.push_back({e.steiner, e.squared_radius});
+  for (const auto& f : mesh.facets())
+    if (f.cell != typename Restricted::Cell_handle() && measure.facet(f).is_bad())
+      balls.push_back({f.steiner, f.squared_radius});
+  for (const auto c : mesh.triangulation().finite_cell_handles())
+    if (c->subdomain() != 0 && measure.cell(c).is_bad())
+      balls.push_back(
+          {c->circumcenter(), CGAL::to_double(CGAL::squared_distance(c->circumcenter(), c->vertex(0)->point()))});
+  for (const auto v : mesh.vertices())
+    if (v->location().dimension <= 2 && !has_topological_disk(mesh, v))
+      balls.push_back({v->point(), least_radius * least_radius});
+  return balls;
+}
+
+/// Drops the vertices in balls that are blown up by a factor, but for feature vertices. O(vertices * balls).
+template <class K>
+void drop_vertices(const std::vector<Ball_3<K>>& balls, double factor, Vertex_set_3<K>& vertices)
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < vertices.points.size(); ++i) {
+    const auto& p = vertices.points[i];
+    if (vertices.locations[i].dimension > 0 && std::any_of(balls.begin(), balls.end(), [&](const Ball_3<K>& b) {
+          return CGAL::to_double(CGAL::squared_distance(b.center, p)) < factor * factor * b.squared_radius;
+        }))
+      continue;
+    vertices.points[kept] = p;
+    vertices.locations[kept++] = vertices.locations[i];
+  }
+  vertices.points.erase(vertices.points.begin() + static_cast<std::ptrdiff_t>(kept), vertices.points.end());
+  vertices.locations.erase(vertices.locations.begin() + static_cast<std::ptrdiff_t>(kept), vertices.locations.end());
+}
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_RESTART_3_H
