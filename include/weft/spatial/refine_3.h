@@ -452,6 +452,7 @@ private:
   /// fewest vertices on average.
   Zone_result find_best(const Restricted_facet& f)
   {
+    if (f.cell->batch() == batch_) return Zone_result::claimed; // looking for the point would tell no more
     Point p = f.steiner;
     const auto missed = measure_.worst_missed_point(f);
     const double radius = std::sqrt(f.squared_radius);

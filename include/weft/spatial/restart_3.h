@@ -72,22 +72,21 @@ bad_balls(const Restricted& mesh, const Criteria_3<typename Restricted::Kernel>&
   return balls;
 }
 
-/// Drops the vertices in balls that are blown up by a factor, but for feature vertices. O(vertices * balls).
-template <class K>
-void drop_vertices(const std::vector<Ball_3<K>>& balls, double factor, Vertex_set_3<K>& vertices)
+/// Takes the vertices in balls that are blown up by a factor out of a mesh, but for feature vertices and those that
+/// were fixed. The others get new ids. O(vertices * balls).
+template <class Restricted>
+void drop_vertices(const std::vector<Ball_3<typename Restricted::Kernel>>& balls, double factor, Restricted& mesh)
 {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < vertices.points.size(); ++i) {
-    const auto& p = vertices.points[i];
-    if (vertices.locations[i].dimension > 0 && std::any_of(balls.begin(), balls.end(), [&](const Ball_3<K>& b) {
-          return CGAL::to_double(CGAL::squared_distance(b.center, p)) < factor * factor * b.squared_radius;
+  std::vector<typename Restricted::Vertex_handle> dropped;
+  for (const auto v : mesh.vertices())
+    if (!mesh.is_fixed(v) && std::any_of(balls.begin(), balls.end(), [&](const auto& b) {
+          return CGAL::to_double(CGAL::squared_distance(b.center, v->point())) < factor * factor * b.squared_radius;
         }))
-      continue;
-    vertices.points[kept] = p;
-    vertices.locations[kept++] = vertices.locations[i];
+      dropped.push_back(v);
+  for (const auto v : dropped) {
+    const int id = v->id();
+    mesh.leave_out(id, mesh.take_away(v));
   }
-  vertices.points.erase(vertices.points.begin() + static_cast<std::ptrdiff_t>(kept), vertices.points.end());
-  vertices.locations.erase(vertices.locations.begin() + static_cast<std::ptrdiff_t>(kept), vertices.locations.end());
 }
 
 } // namespace weft
