@@ -136,7 +136,7 @@ struct Mesh_report_3
   std::size_t perturb_insertions = 0; ///< vertices it inserted where no move helped
 
   std::size_t batches = 0;
-  std::size_t candidates = 0;       ///< Steiner points whose conflict zone was looked for
+  std::size_t candidates = 0;       ///< Steiner points looked for; a choice among several counts once
   std::size_t encroachments = 0;    ///< Steiner points replaced by that of an element they encroach upon
   std::size_t segment_queries = 0;  ///< Voronoi edges against the boundary
   std::size_t location_queries = 0; ///< points located in the domain

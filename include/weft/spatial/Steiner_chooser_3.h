@@ -7,8 +7,8 @@
 // zones, and the one that removes the most bad elements net of those that it makes is taken. It keeps a distance from
 // all vertices that still bounds their number.
 //
-// What that saves in vertices at the same criteria, against circumcenters and farthest points alone, on the 32 inputs of
-// `benchmark/run_3d`: 11 % on average, 24 % at most (cylinder, 0.0005).
+// What that saves in vertices at the same criteria, against circumcenters and farthest points alone, on the 32 inputs
+// of `benchmark/run_3d`: 11 % on average, 24 % at most (cylinder, 0.0005).
 
 #ifndef WEFT_SPATIAL_STEINER_CHOOSER_3_H
 #define WEFT_SPATIAL_STEINER_CHOOSER_3_H
@@ -64,8 +64,8 @@ public:
     collect(c);
     const double radius = squared(c->circumcenter(), c->vertex(0)->point());
     Best best;
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      if (!consider(points_[i], c, batch, radius, zone, best)) return Zone_result::claimed;
+    for (const Point& p : points_)
+      if (!consider(p, c, batch, radius, zone, best)) return Zone_result::claimed;
     if (best.gain == none) return Zone_result::no_conflict;
     const Point first = best.point;
     for (const Point& p : points_)

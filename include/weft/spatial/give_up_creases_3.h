@@ -8,10 +8,9 @@
 
 #include <weft/internal/derive_features_3.h>
 #include <weft/internal/surface_topology_3.h>
+#include <weft/spatial/bad_elements_3.h>
 #include <weft/spatial/Criteria_3.h>
-#include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
-#include <weft/spatial/topological_disk_3.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -31,17 +30,15 @@ std::vector<char> creases_beside_bad_elements(const Restricted& mesh, const Crit
     if (at.dimension == 1) is_bad[static_cast<std::size_t>(at.index)] = true;
     if (at.dimension == 0) is_bad_corner[static_cast<std::size_t>(at.index)] = true;
   };
-  const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
-  for (const auto& e : mesh.creases().edges())
-    if (measure.crease_edge(e).is_bad()) is_bad[static_cast<std::size_t>(e.crease)] = true;
-  for (const auto& f : mesh.facets())
-    if (f.cell != typename Restricted::Cell_handle() && measure.facet(f).is_bad())
-      for (int i = 1; i < 4; ++i) blame(f.cell->vertex((f.index + i) % 4)->location());
-  for (const auto c : mesh.triangulation().finite_cell_handles())
-    if (c->subdomain() != 0 && measure.cell(c).is_bad())
-      for (int i = 0; i < 4; ++i) blame(c->vertex(i)->location());
-  for (const auto v : mesh.vertices())
-    if (v->location().dimension <= 2 && !has_topological_disk(mesh, v)) blame(v->location());
+  visit_bad_elements(
+      mesh, criteria, [&](const auto& e, auto...) { is_bad[static_cast<std::size_t>(e.crease)] = true; },
+      [&](const auto& f, auto...) {
+        for (int i = 1; i < 4; ++i) blame(f.cell->vertex((f.index + i) % 4)->location());
+      },
+      [&](auto c, auto...) {
+        for (int i = 0; i < 4; ++i) blame(c->vertex(i)->location());
+      },
+      [&](auto v) { blame(v->location()); });
   for (std::size_t c = 0; c < is_bad.size(); ++c) {
     const auto& v = complex.creases[c].vertices;
     for (std::size_t i = 0; i < complex.features.size(); ++i)

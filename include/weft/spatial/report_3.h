@@ -6,11 +6,10 @@
 #define WEFT_SPATIAL_REPORT_3_H
 
 #include <weft/report.h>
+#include <weft/spatial/bad_elements_3.h>
 #include <weft/spatial/extract_mesh_3.h>
-#include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/quality_3.h>
 #include <weft/spatial/Restricted_delaunay_3.h>
-#include <weft/spatial/topological_disk_3.h>
 #include <weft/spatial/validate_3.h>
 
 #include <algorithm>
@@ -21,12 +20,11 @@
 namespace weft {
 namespace internal {
 
-/// Counts an element with the given Steiner point if it is bad.
-template <class Point, class Oracle>
-void count_bad(const Badness_3& badness, const Point& center, double squared_radius, double squared_floor,
-               const Oracle& oracle, Unsatisfied_3& count)
+/// Counts a bad element with the given Delaunay ball.
+template <class Kernel, class Oracle>
+void count_bad(const Badness_3& badness, const Ball_3<Kernel>& ball, double size_floor, const Oracle& oracle,
+               Unsatisfied_3& count)
 {
-  if (!badness.is_bad()) return;
   ++count.elements;
   count.size += (badness.reasons & bad_size) != 0;
   count.approximation += (badness.reasons & bad_approximation) != 0;
@@ -34,28 +32,21 @@ void count_bad(const Badness_3& badness, const Point& center, double squared_rad
   count.topology += (badness.reasons & bad_topology) != 0;
   count.disk += (badness.reasons & bad_disk) != 0;
   count.demand += (badness.reasons & bad_demand) != 0;
-  count.at_floor += squared_radius < squared_floor;
-  count.at_acute_edge += oracle.is_at_acute_edge(center, std::sqrt(squared_radius));
+  count.at_floor += ball.squared_radius < size_floor * size_floor;
+  count.at_acute_edge += oracle.is_at_acute_edge(ball.center, std::sqrt(ball.squared_radius));
 }
 
 template <class Restricted, class Kernel>
 void count_bad_elements(const Restricted& mesh, const Criteria_3<Kernel>& criteria, double size_floor,
                         Mesh_report_3& report)
 {
-  const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
-  const double floor = size_floor * size_floor;
-  for (const auto& e : mesh.creases().edges())
-    count_bad(measure.crease_edge(e), e.steiner, e.squared_radius, floor, mesh.oracle(), report.bad_edges);
-  for (const auto& f : mesh.facets())
-    if (f.cell != typename Restricted::Cell_handle())
-      count_bad(measure.facet(f), f.steiner, f.squared_radius, floor, mesh.oracle(), report.bad_facets);
-  for (const auto c : mesh.triangulation().finite_cell_handles())
-    if (c->subdomain() != 0)
-      count_bad(measure.cell(c), c->circumcenter(),
-                CGAL::to_double(CGAL::squared_distance(c->circumcenter(), c->vertex(0)->point())), floor, mesh.oracle(),
-                report.bad_cells);
-  for (const auto v : mesh.vertices())
-    if (v->location().dimension <= 2) report.bad_vertices += !has_topological_disk(mesh, v);
+  const auto counter = [&](Unsatisfied_3& count) {
+    return [&](const auto&, const Badness_3& badness, const Ball_3<Kernel>& ball) {
+      count_bad(badness, ball, size_floor, mesh.oracle(), count);
+    };
+  };
+  visit_bad_elements(mesh, criteria, counter(report.bad_edges), counter(report.bad_facets), counter(report.bad_cells),
+                     [&](auto) { ++report.bad_vertices; });
 }
 
 template <class Restricted>

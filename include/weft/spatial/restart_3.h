@@ -8,9 +8,8 @@
 #ifndef WEFT_SPATIAL_RESTART_3_H
 #define WEFT_SPATIAL_RESTART_3_H
 
+#include <weft/spatial/bad_elements_3.h>
 #include <weft/spatial/Criteria_3.h>
-#include <weft/spatial/measure_badness_3.h>
-#include <weft/spatial/topological_disk_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -41,14 +40,6 @@ Vertex_set_3<typename Restricted::Kernel> vertices_of(const Restricted& mesh)
   return vertices;
 }
 
-/// A ball in space.
-template <class K>
-struct Ball_3
-{
-  typename K::Point_3 center;
-  double squared_radius;
-};
-
 /// The Delaunay balls of all bad elements, surface Delaunay balls of facets and crease edges. Linear.
 /// \param least_radius of the balls around vertices without a topological disk.
 template <class Restricted>
@@ -56,19 +47,10 @@ std::vector<Ball_3<typename Restricted::Kernel>>
 bad_balls(const Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria, double least_radius)
 {
   std::vector<Ball_3<typename Restricted::Kernel>> balls;
-  const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
-  for (const auto& e : mesh.creases().edges())
-    if (measure.crease_edge(e).is_bad()) balls.push_back({e.steiner, e.squared_radius});
-  for (const auto& f : mesh.facets())
-    if (f.cell != typename Restricted::Cell_handle() && measure.facet(f).is_bad())
-      balls.push_back({f.steiner, f.squared_radius});
-  for (const auto c : mesh.triangulation().finite_cell_handles())
-    if (c->subdomain() != 0 && measure.cell(c).is_bad())
-      balls.push_back(
-          {c->circumcenter(), CGAL::to_double(CGAL::squared_distance(c->circumcenter(), c->vertex(0)->point()))});
-  for (const auto v : mesh.vertices())
-    if (v->location().dimension <= 2 && !has_topological_disk(mesh, v))
-      balls.push_back({v->point(), least_radius * least_radius});
+  const auto take = [&](const auto&, const Badness_3&, const auto& ball) { balls.push_back(ball); };
+  visit_bad_elements(mesh, criteria, take, take, take, [&](auto v) {
+    balls.push_back({v->point(), least_radius * least_radius});
+  });
   return balls;
 }
 
