@@ -55,9 +55,11 @@ bad_balls(const Restricted& mesh, const Criteria_3<typename Restricted::Kernel>&
 }
 
 /// Takes the vertices in balls that are blown up by a factor out of a mesh, but for feature vertices and those that
-/// were fixed. The others get new ids. O(vertices * balls).
+/// were fixed. The others get new ids. O(vertices * balls). \returns how many were; none at all where it would be more
+/// than half of them.
 template <class Restricted>
-void drop_vertices(const std::vector<Ball_3<typename Restricted::Kernel>>& balls, double factor, Restricted& mesh)
+std::size_t drop_vertices(const std::vector<Ball_3<typename Restricted::Kernel>>& balls, double factor,
+                          Restricted& mesh)
 {
   std::vector<typename Restricted::Vertex_handle> dropped;
   for (const auto v : mesh.vertices())
@@ -65,10 +67,12 @@ void drop_vertices(const std::vector<Ball_3<typename Restricted::Kernel>>& balls
           return CGAL::to_double(CGAL::squared_distance(b.center, v->point())) < factor * factor * b.squared_radius;
         }))
       dropped.push_back(v);
+  if (2 * dropped.size() > mesh.vertices().size()) return 0;
   for (const auto v : dropped) {
     const int id = v->id();
     mesh.leave_out(id, mesh.take_away(v));
   }
+  return dropped.size();
 }
 
 } // namespace weft
