@@ -116,7 +116,8 @@ public:
     return model_.attract(p, vertex_reach, fold_reach, patch);
   }
 
-  /// Calls `visit(point)` for each end of a fold in a ball around a point of a patch.
+  /// Calls `visit(point, whether vertices there are welcome)` for each end of a fold in a ball around a point of a
+  /// patch.
   template <class Visit>
   void visit_salient_points(const Point& center, double squared_radius, int patch, const Visit& visit) const
   {

@@ -62,7 +62,7 @@ public:
     farthest_ = {rounding * rounding, rounding * rounding}; // all that is seen on flat patches
     // Most facets needn't be measured, once a far one is known: a quarter of the time.
     for (const int record : all.facets) farthest_.raise_to(deviation_.beyond(farthest_, facet(record)));
-    farthest_.shrink(closer * closer);
+    farthest_.depth *= closer * closer;
     farthest_of_crease_ = rounding * rounding;
     for (const Crease_edge& e : mesh.creases().edges())
       farthest_of_crease_ = (std::max)(farthest_of_crease_, deviation_.of(e));
@@ -337,8 +337,8 @@ private:
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
   Squared_deviation_3 farthest_;   ///< that facets may be
   double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
-  /// For what lies between the samples. With 0.9 the distance of homer rises by 15 % over a whole run as far as it
-  /// goes.
+  /// For what lies between the samples of facets. With 0.9 the distance of homer rises by 15 % over a whole run as far
+  /// as it goes.
   static constexpr double closer = 0.85;
 };
 

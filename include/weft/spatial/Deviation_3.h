@@ -13,8 +13,10 @@
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -30,11 +32,6 @@ struct Squared_deviation_3
     depth = (std::max)(depth, other.depth);
     height = (std::max)(height, other.height);
   }
-  void shrink(double factor)
-  {
-    depth *= factor;
-    height *= factor;
-  }
 };
 
 /// Measures boundary facets and crease edges against the surface.
@@ -45,6 +42,7 @@ class Deviation_3
 public:
   using Kernel = typename Restricted::Kernel;
   using Point = typename Restricted::Point;
+  using Vertex_handle = typename Restricted::Vertex_handle;
   using Cell_handle = typename Restricted::Cell_handle;
   using Facet = typename Restricted::Restricted_facet;
   using Crease_edge = typename Restricted::Crease_edge;
@@ -107,15 +105,31 @@ private:
     return deepest;
   }
 
-  /// The other way round: of the salient points of the surface near the facet, the farthest from the facet and from
-  /// those around it; 0 if that isn't beyond the bound.
+  /// The other way round: of the salient points of the surface near the facet and of some points of its ridges, the
+  /// farthest from the facet and from those around it; 0 if that isn't beyond the bound. With ends of attracting folds
+  /// alone, a whole run raises the distance of elephant, homer and armadillo by 44, 24 and 12 %; with all this by 0, 5
+  /// and 3 %.
   double height(const Facet& f, double bound) const
   {
     double highest = bound;
-    const double squared_reach = 1.5 * 1.5 * f.squared_radius; // tips stick out of surface Delaunay balls
-    mesh_->oracle().visit_salient_points(f.steiner, squared_reach, f.patch, [&](const Point& p) {
-      const double own = squared_distance(p, f);
-      if (own > highest) highest = (std::max)(highest, (std::min)(own, squared_distance_around(p, f)));
+    thread_local std::vector<const Facet*> around;
+    around.clear();
+    const auto look = [&](const Point& p) {
+      if (squared_distance(p, f) <= highest) return;
+      if (around.empty())
+        for (int i = 1; i <= 3; ++i) list_star(f.cell->vertex((f.index + i) & 3), around);
+      if (!is_within(p, highest, around)) highest = (std::max)(highest, squared_distance_from_around(p, highest, f));
+    };
+    constexpr double reach = 1.2; // tips stick out of surface Delaunay balls
+    mesh_->oracle().visit_salient_points(f.steiner, reach * reach * f.squared_radius, f.patch,
+                                         [&](const Point& p, bool) { look(p); });
+    mesh_->oracle().visit_ridges(f.steiner, f.squared_radius, f.patch, [&](const Point& p, const Point& q, bool) {
+      // The distance from a facet is convex along a segment.
+      if (squared_distance(p, f) <= highest && squared_distance(q, f) <= highest) return;
+      for (const double t : along_ridges) {
+        const Point r = p + t * (q - p);
+        if (CGAL::squared_distance(r, f.steiner) < f.squared_radius) look(r);
+      }
     });
     return highest > bound ? highest : 0;
   }
@@ -128,17 +142,56 @@ private:
         CGAL::squared_distance(p, internal::nearest_point_on_triangle(p, corner(f, 1), corner(f, 2), corner(f, 3))));
   }
 
-  /// To all facets that have a vertex in common with f.
-  double squared_distance_around(const Point& p, const Facet& f) const
+  /// Appends the facets at a vertex.
+  void list_star(Vertex_handle v, std::vector<const Facet*>& facets) const
   {
-    double nearest = squared_distance(p, f);
     thread_local std::vector<Cell_handle> cells;
     cells.clear();
-    for (int i = 1; i <= 3; ++i)
-      mesh_->triangulation().incident_cells(f.cell->vertex((f.index + i) & 3), std::back_inserter(cells));
+    mesh_->triangulation().incident_cells(v, std::back_inserter(cells));
     for (const Cell_handle c : cells)
       for (int i = 0; i < 4; ++i)
-        if (const Facet* other = mesh_->facet(c, i)) nearest = (std::min)(nearest, squared_distance(p, *other));
+        if (c->vertex(i) != v)
+          if (const Facet* f = mesh_->facet(c, i)) facets.push_back(f);
+  }
+
+  /// Whether one of some facets is within a bound; that one comes first from then on, as the next point is near to p.
+  static bool is_within(const Point& p, double bound, std::vector<const Facet*>& facets)
+  {
+    const auto found =
+        std::find_if(facets.begin(), facets.end(), [&](const Facet* f) { return squared_distance(p, *f) <= bound; });
+    if (found == facets.end()) return false;
+    std::swap(*found, facets.front());
+    return true;
+  }
+
+  /// From a facet, those at the vertices of the cell around p and at those beside the vertex nearest to it; 0 if that
+  /// isn't beyond a bound. With only those beside the facet, points on the other side of a thin sheet seem to be far
+  /// from a mesh of it, and hide what gets farther than any was before.
+  double squared_distance_from_around(const Point& p, double bound, const Facet& f) const
+  {
+    const auto& tr = mesh_->triangulation();
+    thread_local std::vector<Vertex_handle> vertices;
+    thread_local std::vector<const Facet*> star;
+    double nearest = squared_distance(p, f);
+    const auto look = [&](Vertex_handle v) {
+      star.clear();
+      list_star(v, star);
+      for (const Facet* g : star) nearest = (std::min)(nearest, squared_distance(p, *g));
+      return nearest <= bound;
+    };
+    const Cell_handle c = tr.locate(p, f.cell);
+    const auto squared = [&](int i) { return CGAL::to_double(CGAL::squared_distance(p, c->vertex(i)->point())); };
+    int first = 0;
+    for (int i = 1; i < 4; ++i)
+      if (squared(i) < squared(first)) first = i;
+    for (int i = 0; i < 4; ++i)
+      if (look(c->vertex((first + i) & 3))) return 0;
+    const Vertex_handle v = tr.nearest_vertex(p, c);
+    if (!c->has_vertex(v) && look(v)) return 0;
+    vertices.clear();
+    tr.finite_adjacent_vertices(v, std::back_inserter(vertices));
+    for (const Vertex_handle w : vertices)
+      if (!c->has_vertex(w) && look(w)) return 0;
     return nearest;
   }
 
@@ -149,6 +202,8 @@ private:
       {1. / 3, 1. / 3}, {.6, .2},   {.2, .6},   {.2, .2},   {.44, .12},   {.12, .44},  {.44, .44}, {0.5, 0},
       {0.3, 0},         {0.7, 0},   {0.12, 0},  {0.88, 0},  {0, 0.5},     {0, 0.3},    {0, 0.7},   {0, 0.12},
       {0, 0.88},        {0.5, 0.5}, {0.3, 0.7}, {0.7, 0.3}, {0.12, 0.88}, {0.88, 0.12}};
+
+  static constexpr double along_ridges[] = {1. / 6, 1. / 3, 1. / 2, 2. / 3, 5. / 6};
 
   const Restricted* mesh_;
 };

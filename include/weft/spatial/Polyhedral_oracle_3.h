@@ -163,7 +163,8 @@ public:
     return salient_.attract(p, vertex_reach, fold_reach, patch);
   }
 
-  /// Calls `visit(point)` for each vertex at the end of a fold in a ball around a point of a patch.
+  /// Calls `visit(point, whether vertices there are welcome)` for each vertex at the end of a fold in a ball around a
+  /// point of a patch.
   template <class Visit>
   void visit_salient_points(const Point& center, double squared_radius, int patch, const Visit& visit) const
   {

@@ -50,17 +50,17 @@ public:
   {
     const Bends cosines{cosine_of_degrees(bends.fold), cosine_of_degrees(bends.ridge), cosine_of_degrees(bends.sharp),
                         cosine_of_degrees(bends.acute)};
-    std::vector<char> is_end(complex.points.size(), false);
+    std::vector<char> is_end(complex.points.size(), false), is_sharp(complex.points.size(), false);
     std::vector<int> patch(complex.points.size(), -1);
     std::vector<double> angle(complex.points.size(), 0);
-    find_folds(complex, cosines, is_end, patch, angle);
+    find_folds(complex, cosines, is_end, is_sharp, patch, angle);
     for (const auto& crease : complex.creases)
       for (const std::size_t v : crease.vertices) is_end[v] = false;
     for (const auto& feature : complex.features) is_end[feature.vertex] = false;
     std::vector<internal::Box_3> boxes;
     for (std::size_t v = 0; v < complex.points.size(); ++v) {
       if (!is_end[v]) continue;
-      vertices_.push_back({complex.points[v], patch[v], angle[v]});
+      vertices_.push_back({complex.points[v], patch[v], angle[v], !is_sharp[v]});
       boxes.emplace_back();
       boxes.back().add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
     }
@@ -84,7 +84,8 @@ public:
       p = x;
     };
     visit_near(vertex_boxes_, center, vertex_reach * vertex_reach, [&](std::uint32_t item) {
-      if (vertices_[item].patch == patch) take(vertices_[item].point, vertices_[item].angle, vertex_reach);
+      const Vertex& v = vertices_[item];
+      if (v.patch == patch && v.attracts) take(v.point, v.angle, vertex_reach);
     });
     if (best > 0) return true;
     visit_near(fold_boxes_, center, fold_reach * fold_reach, [&](std::uint32_t item) {
@@ -95,12 +96,13 @@ public:
     return best > 0;
   }
 
-  /// Calls `visit(point)` for every vertex of a fold on the patch in a ball, and perhaps for some outside.
+  /// Calls `visit(point, whether it attracts)` for every vertex of a fold on the patch in a ball, and perhaps for some
+  /// outside.
   template <class Visit>
   void visit_vertices(const Point& center, double squared_radius, int patch, const Visit& visit) const
   {
     visit_near(vertex_boxes_, center, squared_radius, [&](std::uint32_t item) {
-      if (vertices_[item].patch == patch) visit(vertices_[item].point);
+      if (vertices_[item].patch == patch) visit(vertices_[item].point, vertices_[item].attracts);
     });
   }
 
@@ -121,6 +123,7 @@ private:
     Point point;
     int patch;
     double angle; ///< the largest of its folds
+    bool attracts;
   };
   struct Fold
   {
@@ -131,9 +134,8 @@ private:
   };
 
   void find_folds(const Piecewise_smooth_complex_3<K>& complex, const Bends& cosines, std::vector<char>& is_end,
-                  std::vector<int>& patch, std::vector<double>& angle)
+                  std::vector<char>& is_sharp, std::vector<int>& patch, std::vector<double>& angle)
   {
-    std::vector<std::size_t> sharp_ends;
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> triangle_of_side;
     std::vector<internal::Box_3> boxes, ridge_boxes;
     for (std::size_t t = 0; t < complex.triangles.size(); ++t)
@@ -156,19 +158,17 @@ private:
           ridges_.push_back(fold);
           ridge_boxes.push_back(box);
         }
-        if (!attracts) {
-          sharp_ends.insert(sharp_ends.end(), {a, b});
-          continue;
+        if (attracts) {
+          folds_.push_back(fold);
+          boxes.push_back(box);
         }
-        folds_.push_back(fold);
-        boxes.push_back(box);
         for (const std::size_t v : {a, b}) {
           is_end[v] = true;
+          is_sharp[v] = is_sharp[v] || !attracts;
           angle[v] = (std::max)(angle[v], fold.angle);
           patch[v] = complex.patches[t];
         }
       }
-    for (const std::size_t v : sharp_ends) is_end[v] = false;
     fold_boxes_ = internal::Box_hierarchy_3(boxes);
     ridge_boxes_ = internal::Box_hierarchy_3(ridge_boxes);
   }

@@ -173,8 +173,8 @@ public:
       const double ratio = prism.height(p) / (tolerance * bound);
       if (ratio > worst.ratio) worst = {p, ratio, is_vertex};
     };
-    mesh_->oracle().visit_salient_points(f.steiner, f.squared_radius, f.patch, [&](const Point& p) {
-      if (prism.contains(p)) take(p, tip_tolerance, true);
+    mesh_->oracle().visit_salient_points(f.steiner, f.squared_radius, f.patch, [&](const Point& p, bool attracts) {
+      if (attracts && prism.contains(p)) take(p, tip_tolerance, true);
     });
     const double least = (std::min)(ridge_tolerance, sharp_tolerance) * bound;
     mesh_->oracle().visit_ridges(f.steiner, f.squared_radius, f.patch,
