@@ -9,7 +9,9 @@
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/check_restricted_3.h>
 #include <weft/spatial/coarsen_3.h>
+#include <weft/spatial/Deviation_3.h>
 #include <weft/spatial/Dynamic_sizing_3.h>
+#include <weft/spatial/hausdorff_3.h>
 #include <weft/spatial/quality_3.h>
 #include <weft/spatial/smooth_3.h>
 #include <weft/spatial/smoothers_3.h>
@@ -515,6 +517,62 @@ TEST_CASE("a run cancelled at any call of the visitor leaves a valid mesh and sa
     CHECK(calls == last);
     CHECK(report.stop_reason == weft::Stop_reason::cancelled);
     check_consistent(mesh, report);
+  }
+}
+
+/// Spheres with spikes, flattened ones with noise, and ones with more noise, by `kind`; no edge of them is marked.
+Surface rough_sphere(int kind, std::mt19937& random)
+{
+  Surface surface = surfaces::sphere(3);
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    const Point p = surface.points[i];
+    const double height = kind == 0 ? (i % 9 == 0 ? 1.3 : 1) : 1 + (kind == 1 ? 0.06 : 0.1) * uniform(random);
+    surface.points[i] = Point(height * p.x(), height * p.y(), (kind == 1 ? 0.25 : 1) * height * p.z());
+  }
+  return surface;
+}
+
+TEST_CASE("how far tips and ridges are from a mesh is what brute force says, on thin sheets, too")
+{
+  std::mt19937 random(67);
+  for (int kind = 0; kind < 3; ++kind) {
+    INFO("kind " << kind);
+    const Surface surface = rough_sphere(kind, random);
+    const Oracle oracle = oracle_of(surface, 0);
+    const auto result = weft::make_mesh_3(oracle, criteria_of(0.4, 0.01), refinement());
+    const weft::Deviation_3<Restricted> deviation(result.mesh);
+    double height = 0;
+    for (const auto& f : result.mesh.facets())
+      if (f.cell != Cell_handle()) height = (std::max)(height, std::sqrt(deviation.of(f).height));
+    const auto mesh = weft::tetrahedral_mesh(result.mesh);
+    double of_tips = 0;
+    for (const Point& p : surface.points) {
+      double nearest = HUGE_VAL;
+      for (const auto& f : mesh.facets)
+        nearest = (std::min)(
+            nearest, CGAL::squared_distance(p, K::Triangle_3(mesh.points[f[0]], mesh.points[f[1]], mesh.points[f[2]])));
+      of_tips = (std::max)(of_tips, std::sqrt(nearest));
+    }
+    const double of_all = weft::hausdorff_3(mesh, surface.points, surface.triangles, 200000).surface_to_mesh;
+    CHECK(height >= 0.999 * of_tips);
+    CHECK(height <= 1.05 * of_all); // which is sampled
+  }
+}
+
+TEST_CASE("a whole run takes the mesh no farther from unmarked tips, rims and noise than refinement has left it")
+{
+  std::mt19937 random(61);
+  for (int kind = 0; kind < 3; ++kind) {
+    INFO("kind " << kind);
+    const Surface surface = rough_sphere(kind, random);
+    const Oracle oracle = oracle_of(surface, 0);
+    const auto distance = [&](const weft::Mesh_options_3& options) {
+      const auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.4, 0.01), options);
+      INFO(report);
+      CHECK(report.bad() == 0);
+      return weft::hausdorff_3(weft::tetrahedral_mesh(mesh), surface.points, surface.triangles, 100000).two_sided();
+    };
+    CHECK(distance({}) <= 1.1 * distance(refinement()));
   }
 }
 
