@@ -532,13 +532,21 @@ Surface rough_sphere(int kind, std::mt19937& random)
   return surface;
 }
 
-TEST_CASE("how far tips and ridges are from a mesh is what brute force says, on thin sheets, too")
+/// Calls `visit(surface, oracle)` for one of each kind.
+template <class Visit>
+void visit_rough_spheres(unsigned seed, const Visit& visit)
 {
-  std::mt19937 random(67);
+  std::mt19937 random(seed);
   for (int kind = 0; kind < 3; ++kind) {
     INFO("kind " << kind);
     const Surface surface = rough_sphere(kind, random);
-    const Oracle oracle = oracle_of(surface, 0);
+    visit(surface, oracle_of(surface, 0));
+  }
+}
+
+TEST_CASE("how far tips and ridges are from a mesh is what brute force says, on thin sheets, too")
+{
+  visit_rough_spheres(67, [](const Surface& surface, const Oracle& oracle) {
     const auto result = weft::make_mesh_3(oracle, criteria_of(0.4, 0.01), refinement());
     const weft::Deviation_3<Restricted> deviation(result.mesh);
     double height = 0;
@@ -556,16 +564,12 @@ TEST_CASE("how far tips and ridges are from a mesh is what brute force says, on 
     const double of_all = weft::hausdorff_3(mesh, surface.points, surface.triangles, 200000).surface_to_mesh;
     CHECK(height >= 0.999 * of_tips);
     CHECK(height <= 1.05 * of_all); // which is sampled
-  }
+  });
 }
 
 TEST_CASE("a whole run takes the mesh no farther from unmarked tips, rims and noise than refinement has left it")
 {
-  std::mt19937 random(61);
-  for (int kind = 0; kind < 3; ++kind) {
-    INFO("kind " << kind);
-    const Surface surface = rough_sphere(kind, random);
-    const Oracle oracle = oracle_of(surface, 0);
+  visit_rough_spheres(61, [](const Surface& surface, const Oracle& oracle) {
     const auto distance = [&](const weft::Mesh_options_3& options) {
       const auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.4, 0.01), options);
       INFO(report);
@@ -573,7 +577,7 @@ TEST_CASE("a whole run takes the mesh no farther from unmarked tips, rims and no
       return weft::hausdorff_3(weft::tetrahedral_mesh(mesh), surface.points, surface.triangles, 100000).two_sided();
     };
     CHECK(distance({}) <= 1.1 * distance(refinement()));
-  }
+  });
 }
 
 TEST_CASE("options of smoothing and coarsening out of range are refused")

@@ -13,7 +13,6 @@
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -150,7 +149,7 @@ private:
     for (const Cell_handle c : cells)
       for (int i = 0; i < 4; ++i)
         if (c->vertex(i) != v)
-          if (const Facet* f = mesh_->facet(c, i)) facets.push_back(f);
+          if (const Facet* f = mesh_->facet(c, i); f && f->cell == c) facets.push_back(f); // each once
   }
 
   /// Whether one of some facets is within a bound; that one comes first from then on, as the next point is near to p.

@@ -28,7 +28,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -123,7 +122,6 @@ private:
     bool is_free;    ///< only sizes and distances are at stake
     bool is_needed;  ///< see `is_left()`
     bool is_stuck;
-    std::optional<typename Measure::Missed_point> missed = std::nullopt; ///< once it is known
   };
   enum class Choice
   {
@@ -201,8 +199,8 @@ private:
                      [](const Bad_facet& a, const Bad_facet& b) { return a.ratio > b.ratio; });
     for (Bad_facet& f : bad_facets_)
       if (!f.is_stuck)
-        f.is_stuck = choose(mesh_.facets()[static_cast<std::size_t>(f.record)], f.is_free, f.is_needed, f.missed) ==
-                     Choice::impossible;
+        f.is_stuck =
+            choose(mesh_.facets()[static_cast<std::size_t>(f.record)], f.is_free, f.is_needed) == Choice::impossible;
     return bad_facets_.size();
   }
 
@@ -436,18 +434,11 @@ private:
   }
 
   /// \param free whether the point may be moved; the topology of a mesh is mended only by the Steiner point itself.
-  /// \param missed the worst missed point, if it is known; set if it has to be.
   Choice choose(const Restricted_facet& f, bool free, bool needed)
-  {
-    std::optional<typename Measure::Missed_point> missed;
-    return choose(f, free, needed, missed);
-  }
-  Choice choose(const Restricted_facet& f, bool free, bool needed,
-                std::optional<typename Measure::Missed_point>& missed)
   {
     if (!needed && is_left(f.steiner, f.squared_radius)) return Choice::later;
     if (f.squared_radius < (free ? 1 : topology_floor * topology_floor) * squared_floor_) return Choice::impossible;
-    const Zone_result result = free ? find_best(f, missed) : find_near(own_steiner_point(f), f);
+    const Zone_result result = free ? find_best(f) : find_near(own_steiner_point(f), f);
     if (result != Zone_result::found) return failure(result);
     if (const Crease_edge* e = chooser_.encroached_edge(chosen_[used_].zone)) {
       ++encroachments_;
@@ -459,14 +450,14 @@ private:
   /// The best Steiner point of a facet, or where the surface bends near its own, a point there. A tip that the facet
   /// misses by more than the bound comes first. Reaches of 0.4 and 0.5 radii: of 0.3 to 0.7 for both, these give the
   /// fewest vertices on average.
-  Zone_result find_best(const Restricted_facet& f, std::optional<typename Measure::Missed_point>& missed)
+  Zone_result find_best(const Restricted_facet& f)
   {
     if (f.cell->batch() == batch_) return Zone_result::claimed; // looking for the point would tell no more
     Point p = f.steiner;
-    if (!missed) missed = measure_.worst_missed_point(f);
+    const auto missed = measure_.worst_missed_point(f);
     const double radius = std::sqrt(f.squared_radius);
-    if (missed->ratio > 1) {
-      if (missed->is_vertex) p = missed->point;
+    if (missed.ratio > 1) {
+      if (missed.is_vertex) p = missed.point;
     }
     // Between the sides of an acute edge it isn't the best point that ends refinement but the mirror image.
     else if (!mesh_.oracle().attract(p, 0.4 * radius, 0.5 * radius, f.patch) &&
