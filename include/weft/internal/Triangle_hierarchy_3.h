@@ -137,10 +137,17 @@ public:
     const double least = std::max(0., distance * (1 - 1e-6) - error), most = distance * (1 + 1e-6) + error;
     const auto surely = static_cast<float>(least * least * (1 - 1e-6));
     const Float_4 infinity = std::numeric_limits<float>::infinity();
+    const auto reaches = [&](std::uint32_t block) {
+      return smallest(min(blocks_[block].squared_distances(from).upper, infinity)) < surely;
+    };
+    thread_local std::uint32_t last = 0; // questions come in groups about points near each other
+    if (last < blocks_.size() && reaches(last)) return true;
     bool found = false;
     boxes_.visit_nearest(from, static_cast<float>(most * most * (1 + 1e-6)), [&](std::uint32_t block, float limit) {
-      found = found || smallest(min(blocks_[block].squared_distances(from).upper, infinity)) < surely;
-      return found ? 0.f : limit;
+      if (found || !reaches(block)) return found ? 0.f : limit;
+      last = block;
+      found = true;
+      return 0.f;
     });
     return found || nearest(p).squared_distance <= squared_distance;
   }

@@ -79,8 +79,8 @@ public:
   /// The restricted edge between two vertices, or null.
   const Crease_edge* edge(Vertex_handle a, Vertex_handle b) const
   {
-    const auto found = index_.find(key(a, b));
-    return found == index_.end() ? nullptr : &edges_[found->second];
+    const int e = find(a, b);
+    return e == none ? nullptr : &edges_[static_cast<std::size_t>(e)];
   }
 
   /// Follows again what a batch has changed: the stretches in the cells of vertices that `touched` is true of.
@@ -133,10 +133,24 @@ private:
     double end() const { return static_cast<double>(points.size() - 1); }
   };
 
-  static std::uint64_t key(Vertex_handle a, Vertex_handle b)
+  static constexpr int none = -1;
+
+  /// Where the list of edges is whose end with the smaller id is that of one of two vertices; corners of the box have
+  /// the id -1.
+  static std::size_t list_of(Vertex_handle a, Vertex_handle b)
   {
-    const std::uint64_t i = static_cast<std::uint32_t>(a->id()), j = static_cast<std::uint32_t>(b->id());
-    return i < j ? (i << 32 | j) : (j << 32 | i);
+    return static_cast<std::size_t>((std::min)(a->id(), b->id()) + 1);
+  }
+
+  int find(Vertex_handle a, Vertex_handle b) const
+  {
+    const std::size_t list = list_of(a, b);
+    int e = list < first_.size() ? first_[list] : none;
+    const auto joins = [&](const Crease_edge& x) {
+      return (x.source == a && x.target == b) || (x.source == b && x.target == a);
+    };
+    while (e != none && !joins(edges_[static_cast<std::size_t>(e)])) e = links_[static_cast<std::size_t>(e)].next;
+    return e;
   }
 
   void trace(Crease& crease) const
@@ -232,8 +246,9 @@ private:
 
   void collect_edges()
   {
+    for (const Link& link : links_) first_[link.list] = none; // vertices may be gone, and ids others
     edges_.clear();
-    index_.clear();
+    links_.clear();
     numbers_are_stale_ = false;
     edges_of_crease_.assign(creases_.size(), 0);
     for (std::size_t c = 0; c < creases_.size(); ++c) {
@@ -262,13 +277,18 @@ private:
 
   void add_crossing(Vertex_handle a, Vertex_handle b, int crease, double position)
   {
-    const auto [found, is_new] = index_.emplace(key(a, b), edges_.size());
+    int found = find(a, b);
+    const bool is_new = found == none;
     const Point x = point_at(static_cast<std::size_t>(crease), position);
     if (is_new) {
+      found = static_cast<int>(edges_.size());
+      const std::size_t list = list_of(a, b);
+      if (list >= first_.size()) first_.resize(2 * list + 1, none);
+      links_.push_back({list, std::exchange(first_[list], found)});
       edges_.push_back({a, b, crease, x, crease, position, 0, false});
       ++edges_of_crease_[static_cast<std::size_t>(crease)];
     }
-    Crease_edge& e = edges_[found->second];
+    Crease_edge& e = edges_[static_cast<std::size_t>(found)];
     const double r = CGAL::to_double(CGAL::squared_distance(x, a->point()));
     if (r > e.squared_radius) {
       e.squared_radius = r;
@@ -279,17 +299,26 @@ private:
     e.is_tangled |= !is_new;
   }
 
+  /// Where an edge stands in a list, see `list_of()`: after every local change the lists are made anew, which with a
+  /// hash table took a tenth of a run on the turbine.
+  struct Link
+  {
+    std::size_t list;
+    int next;
+  };
+
   const Triangulation* tr_;
   std::vector<Crease> creases_;
   std::vector<Crease_edge> edges_;
-  std::unordered_map<std::uint64_t, std::size_t> index_;
+  std::vector<Link> links_; ///< by edge
+  std::vector<int> first_;  ///< by list, an edge, or none
   std::vector<std::size_t> edges_of_crease_;
   std::vector<int> counts_;    ///< visits by vertex, zero but while a crease is looked at
   std::vector<Visit> renewed_; ///< scratch
   mutable std::vector<Vertex_handle> neighbours_;
   mutable Vertex_handle loaded_; ///< whose neighbours those are
   mutable double best_speed_ = 0;
-  bool numbers_are_stale_ = false; ///< whether ids of vertices in `index_` have changed
+  bool numbers_are_stale_ = false; ///< whether ids of vertices have changed since the lists were made
 };
 
 } // namespace weft

@@ -8,9 +8,12 @@
 #define WEFT_SPATIAL_DEVIATION_3_H
 
 #include <weft/internal/nearest_point_3.h>
+#include <weft/spatial/Restricted_delaunay_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
+
+#include <boost/container_hash/hash.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -114,10 +117,18 @@ private:
     thread_local std::vector<const Facet*> around;
     around.clear();
     const auto look = [&](const Point& p) {
-      if (squared_distance(p, f) <= highest) return;
-      if (around.empty())
-        for (int i = 1; i <= 3; ++i) list_star(f.cell->vertex((f.index + i) & 3), around);
-      if (!is_within(p, highest, around)) highest = (std::max)(highest, squared_distance_from_around(p, highest, f));
+      if (is_known(p, highest)) return;
+      if (squared_distance(p, f) > highest) {
+        if (around.empty())
+          for (int i = 1; i <= 3; ++i) list_star(f.cell->vertex((f.index + i) & 3), around);
+        const double distance =
+            is_within(p, highest, around) ? 0 : squared_distance_from_around(p, highest, f);
+        if (distance > highest) {
+          highest = distance;
+          return;
+        }
+      }
+      know(p, highest);
     };
     const double squared_reach = 1.2 * 1.2 * f.squared_radius; // tips stick out of surface Delaunay balls
     mesh_->oracle().visit_salient_points(f.steiner, squared_reach, f.patch, [&](const Point& p, bool) { look(p); });
@@ -132,6 +143,31 @@ private:
     return highest > bound ? highest : 0;
   }
 
+  // ---- what is known of salient points
+
+  /// The facets around look at the same points: to find a near facet once is enough, as long as the mesh stays.
+  struct Near_point
+  {
+    Point point;
+    double bound = -1; ///< squared, within which a facet was found
+    int version = 0;   ///< of the mesh then
+  };
+
+  bool is_known(const Point& p, double bound) const
+  {
+    const Near_point& known = known_[slot(p)];
+    return known.version == mesh_->version() && known.bound >= 0 && known.bound <= bound && known.point == p;
+  }
+
+  void know(const Point& p, double bound) const { known_[slot(p)] = {p, bound, mesh_->version()}; }
+
+  std::size_t slot(const Point& p) const
+  {
+    std::size_t hash = 0;
+    for (int k = 0; k < 3; ++k) boost::hash_combine(hash, CGAL::to_double(p[k]));
+    return hash % known_.size();
+  }
+
   static const Point& corner(const Facet& f, int i) { return f.cell->vertex((f.index + i) & 3)->point(); }
 
   static double squared_distance(const Point& p, const Facet& f)
@@ -140,16 +176,9 @@ private:
         CGAL::squared_distance(p, internal::nearest_point_on_triangle(p, corner(f, 1), corner(f, 2), corner(f, 3))));
   }
 
-  /// Appends the facets at a vertex.
   void list_star(Vertex_handle v, std::vector<const Facet*>& facets) const
   {
-    thread_local std::vector<Cell_handle> cells;
-    cells.clear();
-    mesh_->triangulation().incident_cells(v, std::back_inserter(cells));
-    for (const Cell_handle c : cells)
-      for (int i = 0; i < 4; ++i)
-        if (c->vertex(i) != v)
-          if (const Facet* f = mesh_->facet(c, i); f && f->cell == c) facets.push_back(f); // each once
+    for_each_facet_at(*mesh_, v, [&facets](const Facet& f) { facets.push_back(&f); });
   }
 
   /// Whether one of some facets is within a bound; that one comes first from then on, as the next point is near to p.
@@ -204,6 +233,7 @@ private:
   static constexpr double along_ridges[] = {1. / 6, 1. / 3, 1. / 2, 2. / 3, 5. / 6};
 
   const Restricted* mesh_;
+  mutable std::vector<Near_point> known_{1 << 13}; ///< by a hash of the point
 };
 
 } // namespace weft

@@ -32,6 +32,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -411,6 +412,9 @@ public:
   int& batches() { return batches_; }
   int batches() const { return batches_; }
 
+  /// Another number whenever what is classified has changed.
+  int version() const { return update_number_; }
+
   /// Cells created before the last call of `update()` and after the one before.
   const std::vector<Cell_handle>& new_cells() const { return classified_; }
   /// Numbers of the facet records made by the last call of `update()`.
@@ -697,6 +701,20 @@ private:
   std::vector<int> free_facets_, new_facets_, facets_of_patch_;
   Oracle_counts_3 counts_;
 };
+
+/// Calls `visit(facet)` for each restricted facet at a vertex, once; `visit` mustn't come back here. Linear in the cells
+/// around it.
+template <class Restricted, class Visit>
+void for_each_facet_at(const Restricted& mesh, typename Restricted::Vertex_handle v, const Visit& visit)
+{
+  thread_local std::vector<typename Restricted::Cell_handle> cells;
+  cells.clear();
+  mesh.triangulation().incident_cells(v, std::back_inserter(cells));
+  for (const auto c : cells)
+    for (int i = 0; i < 4; ++i)
+      if (c->vertex(i) != v)
+        if (const auto* f = mesh.facet(c, i); f && f->cell == c) visit(*f);
+}
 
 } // namespace weft
 

@@ -277,15 +277,21 @@ private:
     return shortest;
   }
 
-  /// Where a vertex near a cell may lie: inside, on the patches and on the creases of its vertices.
-  static std::vector<Vertex_location_3> locations_around(Cell_handle c)
+  /// Where a vertex near a cell may lie: inside, on the patches and on the creases of its vertices and facets. A facet
+  /// between two creases may have no vertex on its patch: on the narrow walls of turbine's holes, that ended all at 18.1
+  /// degrees.
+  std::vector<Vertex_location_3> locations_around(Cell_handle c) const
   {
     std::vector<Vertex_location_3> all = {{3, c->subdomain()}};
+    const auto add = [&all](const Vertex_location_3& at) {
+      if (std::find(all.begin(), all.end(), at) == all.end()) all.push_back(at);
+    };
     for (int i = 0; i < 4; ++i) {
       const Vertex_location_3& at = c->vertex(i)->location();
-      if (at.dimension != 1 && at.dimension != 2) continue;
-      if (std::find(all.begin(), all.end(), at) == all.end()) all.push_back(at);
+      if (at.dimension == 1 || at.dimension == 2) add(at);
     }
+    for (int i = 0; i < 4; ++i)
+      if (const auto* f = mesh_.facet(c, i)) add({2, f->patch});
     return all;
   }
 

@@ -9,11 +9,13 @@
 #define WEFT_SPATIAL_COARSEN_3_H
 
 #include <weft/errors.h>
+#include <weft/internal/nearest_point_3.h>
 #include <weft/internal/timer.h>
 #include <weft/spatial/Conflict_zone_3.h>
 #include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/Criteria_guard_3.h>
 #include <weft/spatial/dihedral_angles_3.h>
+#include <weft/spatial/Restricted_delaunay_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -133,8 +135,12 @@ private:
   /// Takes a vertex away for good if nothing needs it.
   bool remove(int id)
   {
-    ++report_.tried;
     const Vertex_handle v = mesh_.vertices()[static_cast<std::size_t>(id)];
+    if (is_needed(v)) {
+      is_promising_[static_cast<std::size_t>(id)] = false;
+      return false;
+    }
+    ++report_.tried;
     const Point origin = v->point();
     const Vertex_location_3 location = v->location();
     const double limit = (std::max)(bound_, worst_angle(v));
@@ -142,7 +148,7 @@ private:
     if (guard_.may_accept(filling_)) {
       mesh_.settle(filling_);
       if (keeps_angles(limit) && guard_.accepts_change()) {
-        for (const Cell_handle c : filling_) set_promising(c);
+        set_promising();
         return true;
       }
     }
@@ -152,11 +158,44 @@ private:
     return false;
   }
 
-  /// What was tried in vain is tried again only after a change near by.
-  void set_promising(Cell_handle c)
+  /// Whether the surface at a vertex on a patch is farther from every triangle between its neighbours there than facets
+  /// may be, and a little more: the facets that would fill its place are some of those triangles. Of the vertices that
+  /// could be taken away all the same this leaves 1.5 % on elephant and bunny00, and of those that couldn't it spares a
+  /// quarter the trouble.
+  bool is_needed(Vertex_handle v)
   {
-    for (int i = 0; i < 4; ++i)
-      if (c->vertex(i)->id() >= 0) is_promising_[static_cast<std::size_t>(c->vertex(i)->id())] = true;
+    if (v->location().dimension != 2) return false;
+    const double bound = hopeless * guard_.measure().approximation(v->point());
+    if (bound == 0) return false;
+    neighbours_.clear();
+    for_each_facet_at(mesh_, v, [this, v](const typename Restricted::Restricted_facet& f) {
+      for (int i = 1; i < 4; ++i)
+        if (f.cell->vertex((f.index + i) & 3) != v) neighbours_.push_back(f.cell->vertex((f.index + i) & 3));
+    });
+    std::sort(neighbours_.begin(), neighbours_.end(),
+              [](Vertex_handle a, Vertex_handle b) { return a->id() < b->id(); });
+    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+    const auto& n = neighbours_;
+    for (std::size_t i = 2; i < n.size(); ++i)
+      for (std::size_t j = 1; j < i; ++j)
+        for (std::size_t k = 0; k < j; ++k) {
+          const Point nearest = internal::nearest_point_on_triangle(v->point(), n[i]->point(), n[j]->point(), n[k]->point());
+          if (CGAL::to_double(CGAL::squared_distance(nearest, v->point())) <= bound * bound) return false;
+        }
+    return true;
+  }
+
+  /// What was tried in vain is tried again only after a change near by: of facets for vertices on the boundary, since
+  /// those are what refuses them.
+  void set_promising()
+  {
+    for (const Cell_handle c : filling_)
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i)->location().dimension == 3) is_promising_[static_cast<std::size_t>(c->vertex(i)->id())] = true;
+    for (const int record : mesh_.new_facets()) {
+      const auto& f = mesh_.facets()[static_cast<std::size_t>(record)];
+      for (int i = 1; i < 4; ++i) is_promising_[static_cast<std::size_t>(f.cell->vertex((f.index + i) & 3)->id())] = true;
+    }
   }
 
   /// Cosine of the smallest dihedral angle of the cells around a vertex.
@@ -175,6 +214,8 @@ private:
     return std::all_of(filling_.begin(), filling_.end(),
                        [&](Cell_handle c) { return c->subdomain() == 0 || cosines_of_cell(c).smallest <= limit; });
   }
+
+  static constexpr double hopeless = 1.3; ///< parts of the approximation bound
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted>& guard_;

@@ -172,26 +172,42 @@ private:
 
   // ---- the worst cells
 
-  /// Works on the worst few cells until they stay for as many trials as all progress has taken.
+  /// Works on the worst few cells until they stay for as many trials as all progress has taken, or the target is out of
+  /// reach.
   void mend_worst()
   {
     std::size_t last_progress = report_.trials;
+    course_.assign(1, {report_.trials, report_.after});
     const std::size_t batch = (std::max)(least_batch, mesh_.vertices().size() / batch_divisor);
     look_around(batch);
     for (int idle = 0;
-         !worst_.empty() && idle < most_idle && report_.trials < 2 * last_progress + patience && goes_on();) {
+         !worst_.empty() && idle < most_idle && report_.trials < 2 * last_progress + patience && !is_out_of_reach() &&
+         goes_on();) {
       mender_.set_bound(std::nextafter(worst_.back().measure, -1.0)); // the last is a sliver, too
       const std::vector<Sliver_3> worst = std::move(worst_);
       std::size_t mended = 0;
       for (std::size_t k = 0; k < worst.size() && !mender_.is_late(); ++k)
         mended += mender_.mend(worst[k], k < very_worst ? 1 + idle : 0);
       look_around(batch);
+      course_.emplace_back(report_.trials, report_.after);
       ++report_.passes;
       idle = worst_.empty() || worst_.front().measure < worst.front().measure - 1e-4 ? 0 : idle + 1;
       if (idle == 0 || mended > worst.size() / 4) last_progress = report_.trials;
     }
   }
 
+  /// Whether the target would take three times all the trials so far at the pace of the latter half of them. The narrow
+  /// walls of turbine's holes leave no room: from 18.0 degrees on it gains 0.15 in 20 of 27 s.
+  bool is_out_of_reach() const
+  {
+    const std::size_t first = course_.front().first;
+    if (options_.target >= as_far_as_it_goes || report_.trials < first + patience) return false;
+    const std::size_t middle = first + (report_.trials - first) / 2;
+    const auto half = std::find_if(course_.begin(), course_.end(), [&](const auto& c) { return c.first >= middle; });
+    return 6 * (report_.after - half->second) < options_.target - report_.after;
+  }
+
+  static constexpr double as_far_as_it_goes = 70.53; ///< that of a regular tetrahedron: no angle to reach
   static constexpr double last_bound = 20;  ///< degrees, up to where the whole mesh is worked on
   static constexpr int passes_of_moves = 3; ///< before insertions
   static constexpr int insertion_trials = 200;
@@ -208,6 +224,7 @@ private:
   Perturb_report_3 report_;
   Mender mender_;
   std::vector<Sliver_3> worst_;
+  std::vector<std::pair<std::size_t, double>> course_; ///< trials and smallest angles after each pass over the worst
 };
 
 /// Raises the smallest dihedral angle of a mesh as far as `options.target` by moving, inserting and removing vertices

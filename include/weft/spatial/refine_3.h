@@ -254,22 +254,16 @@ private:
     return bad;
   }
 
-  const Restricted_facet* worst_facet_around(Vertex_handle v)
+  const Restricted_facet* worst_facet_around(Vertex_handle v) const
   {
     const Restricted_facet* worst = nullptr;
     double error = -1;
-    cells_.clear();
-    mesh_.triangulation().incident_cells(v, std::back_inserter(cells_));
-    for (const Cell_handle c : cells_)
-      for (int i = 0; i < 4; ++i) {
-        const Restricted_facet* f = mesh_.facet(c, i);
-        if (!f || c->vertex(i) == v || f->cell != c) continue; // each facet once
-        const double e = measure_.approximation_error(*f);
-        if (e > error) {
-          error = e;
-          worst = f;
-        }
-      }
+    for_each_facet_at(mesh_, v, [&](const Restricted_facet& f) {
+      const double e = measure_.approximation_error(f);
+      if (e <= error) return;
+      error = e;
+      worst = &f;
+    });
     return worst;
   }
 
