@@ -121,8 +121,7 @@ private:
       if (squared_distance(p, f) > highest) {
         if (around.empty())
           for (int i = 1; i <= 3; ++i) list_star(f.cell->vertex((f.index + i) & 3), around);
-        const double distance =
-            is_within(p, highest, around) ? 0 : squared_distance_from_around(p, highest, f);
+        const double distance = is_within(p, highest, around) ? 0 : squared_distance_from_around(p, highest, f);
         if (distance > highest) {
           highest = distance;
           return;

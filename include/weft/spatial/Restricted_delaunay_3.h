@@ -50,6 +50,7 @@ struct Restricted_facet_3
   bool several = false;                     ///< whether they lie on different patches
   typename Triangulation::Point steiner;    ///< the farthest of them from the vertices of the facet
   double squared_radius = 0;                ///< of the surface Delaunay ball around it
+  int version = 0;                          ///< of the mesh before it was made, see Restricted_delaunay_3::version()
 };
 
 /// How often the oracle was asked, and how often it needn't be.
@@ -298,8 +299,7 @@ private:
     vertices_[static_cast<std::size_t>(id)] = v;
     for (const Facet& f : zone.hull) {
       const Cell_handle c = f.first->neighbor(f.second);
-      if (!creases_are_stale_)
-        for (int i = 0; i < 4; ++i) touch(c->vertex(i));
+      for (int i = 0; i < 4; ++i) touch(c->vertex(i));
       new_cells_.push_back(c);
     }
     return v;
@@ -386,6 +386,7 @@ public:
     }
     counts.rebuilding_seconds = lap.seconds();
     creases_are_stale_ = true;
+    touched_.assign(vertices_.size(), update_number_);
     new_cells_.clear();
     for (const Cell_handle c : tr_->finite_cell_handles())
       if (!c->is_classified()) new_cells_.push_back(c);
@@ -412,8 +413,14 @@ public:
   int& batches() { return batches_; }
   int batches() const { return batches_; }
 
-  /// Another number whenever what is classified has changed.
+  /// A number that grows whenever what is classified has changed.
   int version() const { return update_number_; }
+  /// The version of the mesh before the cells around a vertex changed last.
+  int changed_at(Vertex_handle v) const { return touched_[static_cast<std::size_t>(v->id())]; }
+  /// Makes a vertex count as changed in this version.
+  void set_changed(Vertex_handle v) { touch(v); }
+  /// The same for a facet, by its record.
+  void set_changed(int record) { facets_[static_cast<std::size_t>(record)].version = update_number_; }
 
   /// Cells created before the last call of `update()` and after the one before.
   const std::vector<Cell_handle>& new_cells() const { return classified_; }
@@ -671,6 +678,7 @@ private:
         free_facets_.pop_back();
         facets_[static_cast<std::size_t>(record)] = e.facet;
       }
+      facets_[static_cast<std::size_t>(record)].version = update_number_;
       new_facets_.push_back(record);
       const auto patch = static_cast<std::size_t>(e.facet.patch);
       if (patch >= facets_of_patch_.size()) facets_of_patch_.resize(patch + 1, 0); // found only now
@@ -702,8 +710,8 @@ private:
   Oracle_counts_3 counts_;
 };
 
-/// Calls `visit(facet)` for each restricted facet at a vertex, once; `visit` mustn't come back here. Linear in the cells
-/// around it.
+/// Calls `visit(facet)` for each restricted facet at a vertex, once; `visit` mustn't come back here. Linear in the
+/// cells around it.
 template <class Restricted, class Visit>
 void for_each_facet_at(const Restricted& mesh, typename Restricted::Vertex_handle v, const Visit& visit)
 {

@@ -291,7 +291,8 @@ private:
   bool refine(double factor, bool with_cells, std::size_t most_batches = std::numeric_limits<std::size_t>::max(),
               unsigned luck = 0)
   {
-    Refiner refiner(mesh_, criteria_, factor, with_cells, size_floor(), options_.seed + 1 + luck);
+    Refiner refiner(mesh_, criteria_, factor, with_cells, size_floor(), options_.seed + 1 + luck,
+                    factor == 1 ? settled_ : 0);
     bool go_on = true;
     for (std::size_t batches = 0; go_on && batches < most_batches; ++batches) {
       if (report_.batches >= options_.max_batches) go_on = stop(Stop_reason::iteration_limit);
@@ -302,7 +303,9 @@ private:
       ++report_.batches;
       if (!visit(batch.bad)) go_on = stop(Stop_reason::cancelled);
       bad_left_ = batch.bad;
-      if (batch.inserted == 0) break;
+      if (batch.inserted > 0) continue;
+      if (factor == 1) settled_ = refiner.settle();
+      break;
     }
     report_.candidates += refiner.candidates();
     report_.encroachments += refiner.encroachments();
@@ -316,6 +319,7 @@ private:
     earlier_.skipped += mesh_.counts().skipped;
     mesh_ = Restricted(oracle_, options_.threads);
     mesh_.insert(vertices.points, vertices.locations);
+    settled_ = 0;
   }
 
   /// Interleaves what Alg. 5 does, in another order: smoothing the coarse mesh and refining it then, as there,
@@ -492,6 +496,7 @@ private:
   std::optional<Criteria_guard_3<Restricted>> guard_; ///< from when refinement has ended
   Mesh_report_3 report_;
   Oracle_counts_3 earlier_;  ///< of triangulations that were built again
+  int settled_ = 0;          ///< see `Batch_refiner_3::settle()`
   std::size_t bad_left_ = 0; ///< elements that refinement looked at last and left
   bool goes_on_ = false;     ///< neither done nor stopped
   internal::Timer timer_;

@@ -179,7 +179,8 @@ private:
     for (std::size_t i = 2; i < n.size(); ++i)
       for (std::size_t j = 1; j < i; ++j)
         for (std::size_t k = 0; k < j; ++k) {
-          const Point nearest = internal::nearest_point_on_triangle(v->point(), n[i]->point(), n[j]->point(), n[k]->point());
+          const Point nearest =
+              internal::nearest_point_on_triangle(v->point(), n[i]->point(), n[j]->point(), n[k]->point());
           if (CGAL::to_double(CGAL::squared_distance(nearest, v->point())) <= bound * bound) return false;
         }
     return true;
@@ -194,7 +195,8 @@ private:
         if (c->vertex(i)->location().dimension == 3) is_promising_[static_cast<std::size_t>(c->vertex(i)->id())] = true;
     for (const int record : mesh_.new_facets()) {
       const auto& f = mesh_.facets()[static_cast<std::size_t>(record)];
-      for (int i = 1; i < 4; ++i) is_promising_[static_cast<std::size_t>(f.cell->vertex((f.index + i) & 3)->id())] = true;
+      for (int i = 1; i < 4; ++i)
+        is_promising_[static_cast<std::size_t>(f.cell->vertex((f.index + i) & 3)->id())] = true;
     }
   }
 

@@ -180,9 +180,8 @@ private:
     course_.assign(1, {report_.trials, report_.after});
     const std::size_t batch = (std::max)(least_batch, mesh_.vertices().size() / batch_divisor);
     look_around(batch);
-    for (int idle = 0;
-         !worst_.empty() && idle < most_idle && report_.trials < 2 * last_progress + patience && !is_out_of_reach() &&
-         goes_on();) {
+    for (int idle = 0; !worst_.empty() && idle < most_idle && report_.trials < 2 * last_progress + patience &&
+                       !is_out_of_reach() && goes_on();) {
       mender_.set_bound(std::nextafter(worst_.back().measure, -1.0)); // the last is a sliver, too
       const std::vector<Sliver_3> worst = std::move(worst_);
       std::size_t mended = 0;
@@ -208,8 +207,8 @@ private:
   }
 
   static constexpr double as_far_as_it_goes = 70.53; ///< that of a regular tetrahedron: no angle to reach
-  static constexpr double last_bound = 20;  ///< degrees, up to where the whole mesh is worked on
-  static constexpr int passes_of_moves = 3; ///< before insertions
+  static constexpr double last_bound = 20;           ///< degrees, up to where the whole mesh is worked on
+  static constexpr int passes_of_moves = 3;          ///< before insertions
   static constexpr int insertion_trials = 200;
   static constexpr std::size_t patience = 200000; ///< trials
   static constexpr int most_idle = 40;            ///< passes that leave the worst cell as it is
