@@ -17,6 +17,7 @@
 #include <weft/spatial/hausdorff_3.h>
 #include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/perturb_slivers_3.h>
+#include <weft/spatial/refine_3.h>
 #include <weft/spatial/restart_3.h>
 #include <weft/spatial/Steiner_chooser_3.h>
 #include <weft/spatial/validate_3.h>
@@ -738,6 +739,32 @@ TEST_CASE("the Steiner point chosen for a cell mends no less than its circumcent
   }
   CHECK(compared >= 5);
   CHECK(better >= 1);
+}
+
+TEST_CASE("a refiner that doesn't look again at what another has settled does the same")
+{
+  for (const Surface& surface : {surfaces::torus(48, 24), surfaces::l_shape(), surfaces::cylinder(40)}) {
+    const Oracle oracle = oracle_of(surface);
+    const auto coarse = weft::vertices_of(weft::make_mesh_3(oracle, criteria_of(1, 0.1), refinement()).mesh);
+    const Criteria criteria = criteria_of(0.5, 0.02);
+    const auto refined = [&](bool settles) {
+      weft::Restricted_delaunay_3<Oracle> mesh(oracle);
+      mesh.insert(coarse.points, coarse.locations);
+      const auto refine = [&](bool with_cells, int settled) {
+        weft::Batch_refiner_3<weft::Restricted_delaunay_3<Oracle>> refiner(mesh, criteria, 1, with_cells, 1e-3, 5,
+                                                                           settled);
+        for (int batch = 0; batch < 200 && refiner.refine(100000).inserted > 0;) ++batch;
+        return refiner.settle();
+      };
+      const int settled = refine(false, 0);
+      const std::size_t before = mesh.vertices().size();
+      refine(true, settles ? settled : 0);
+      CHECK(mesh.vertices().size() > before);
+      CHECK(weft::check_restricted_3(mesh).ok());
+      return weft::vertices_of(mesh).points;
+    };
+    CHECK(refined(true) == refined(false));
+  }
 }
 
 TEST_CASE("a mesh is built again from its vertices, and what is around bad elements can be left out")
