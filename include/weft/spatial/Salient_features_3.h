@@ -65,6 +65,7 @@ public:
       boxes.back().add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
     }
     vertex_boxes_ = internal::Box_hierarchy_3(boxes);
+    vertices_ = by_block(vertices_, vertex_boxes_);
   }
 
   bool empty() const { return folds_.empty(); }
@@ -171,6 +172,18 @@ private:
       }
     fold_boxes_ = internal::Box_hierarchy_3(boxes);
     ridge_boxes_ = internal::Box_hierarchy_3(ridge_boxes);
+    folds_ = by_block(folds_, fold_boxes_);
+    ridges_ = by_block(ridges_, ridge_boxes_);
+  }
+
+  /// Items in the order of the hierarchy's blocks, as they are visited.
+  template <class Item>
+  static std::vector<Item> by_block(const std::vector<Item>& items, const internal::Box_hierarchy_3& boxes)
+  {
+    std::vector<Item> ordered(boxes.items().size());
+    for (std::size_t i = 0; i < ordered.size(); ++i)
+      if (boxes.items()[i] != internal::Box_hierarchy_3::nothing) ordered[i] = items[boxes.items()[i]];
+    return ordered;
   }
 
   static internal::Xyz_3 normal(const Piecewise_smooth_complex_3<K>& complex, std::size_t t)
@@ -186,7 +199,7 @@ private:
     return internal::dot_product(m, n) / (internal::norm(m) * internal::norm(n));
   }
 
-  /// Calls `visit(item)` for the items within a distance of p, and for some beyond.
+  /// Calls `visit(item)` for the items, by block, within a distance of p, and for some beyond.
   template <class Visit>
   static void visit_near(const internal::Box_hierarchy_3& boxes, const Point& p, double squared_distance,
                          const Visit& visit)
@@ -198,15 +211,14 @@ private:
     const double padded = std::sqrt(squared_distance) * boxes.frame().scale * (1 + 1e-6) + error;
     boxes.visit_nearest(from, static_cast<float>(padded * padded * (1 + 1e-6)), [&](std::uint32_t block, float limit) {
       for (std::uint32_t i = 4 * block; i < 4 * block + 4; ++i) {
-        const std::uint32_t item = boxes.items()[i];
-        if (item == internal::Box_hierarchy_3::nothing) break;
-        visit(item);
+        if (boxes.items()[i] == internal::Box_hierarchy_3::nothing) break;
+        visit(i);
       }
       return limit;
     });
   }
 
-  std::vector<Vertex> vertices_;
+  std::vector<Vertex> vertices_; ///< by block, like the others
   std::vector<Fold> folds_;
   std::vector<Fold> ridges_; ///< some of the folds, and what is sharper
   internal::Box_hierarchy_3 vertex_boxes_, fold_boxes_, ridge_boxes_;

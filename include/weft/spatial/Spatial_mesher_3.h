@@ -111,6 +111,7 @@ public:
     std::vector<Ball_3<Kernel>> balls_of_best;
     std::size_t fewest = few + 1;
     for (int round = 0;; ++round) {
+      if (bad_left_ == 0 && internal::count_bare_patches(mesh_) == 0) return;
       auto balls = bad_balls(mesh_, criteria_, size_floor());
       const std::size_t bad = balls.size() + internal::count_bare_patches(mesh_);
       if (bad == 0) return;
