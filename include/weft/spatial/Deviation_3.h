@@ -148,14 +148,14 @@ private:
   struct Near_point
   {
     Point point;
-    double bound = -1; ///< squared, within which a facet was found
-    int version = 0;   ///< of the mesh then
+    double bound = 0; ///< squared, within which a facet was found
+    int version = -1; ///< of the mesh then
   };
 
   bool is_known(const Point& p, double bound) const
   {
     const Near_point& known = known_[slot(p)];
-    return known.version == mesh_->version() && known.bound >= 0 && known.bound <= bound && known.point == p;
+    return known.version == mesh_->version() && known.bound <= bound && known.point == p;
   }
 
   void know(const Point& p, double bound) const { known_[slot(p)] = {p, bound, mesh_->version()}; }

@@ -24,6 +24,9 @@ enum class Perturb_directions_3
 /// Options of `perturb_slivers_3()`.
 struct Perturb_options_3
 {
+  /// Degrees: the dihedral angle of a regular tetrahedron. From there on a target isn't an angle to reach.
+  static constexpr double as_far_as_it_goes = 70.53;
+
   double target = 20;         ///< smallest dihedral angle to reach, in degrees; 90: as far as it goes
   double first_bound = 4;     ///< bound of the first passes, in degrees
   double step = 2;            ///< by which the bound is raised

@@ -434,7 +434,7 @@ private:
     report_.smoothed_smallest_dihedral = result.before;
     report_.perturbed = result.by_radius + result.by_volume + result.by_chance;
     report_.perturb_insertions = result.insertions;
-    if (options_.min_dihedral_angle < as_far_as_it_goes) may_go_on();
+    if (options_.min_dihedral_angle < Perturb_options_3::as_far_as_it_goes) may_go_on();
   }
 
   bool stop(Stop_reason reason)
@@ -486,7 +486,6 @@ private:
   static constexpr std::size_t most_seeds = 40;
   static constexpr int most_restarts = 12;
   static constexpr std::size_t most_batches_again = 300; ///< of each; what takes more isn't going to end
-  static constexpr double as_far_as_it_goes = 70.53;     ///< no angle to reach, so that time may well end the run
 
   const Oracle& oracle_;
   Criteria_3<Kernel> criteria_;

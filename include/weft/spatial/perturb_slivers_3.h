@@ -200,15 +200,14 @@ private:
   bool is_out_of_reach() const
   {
     const std::size_t first = course_.front().first;
-    if (options_.target >= as_far_as_it_goes || report_.trials < first + patience) return false;
+    if (options_.target >= Perturb_options_3::as_far_as_it_goes || report_.trials < first + patience) return false;
     const std::size_t middle = first + (report_.trials - first) / 2;
     const auto half = std::find_if(course_.begin(), course_.end(), [&](const auto& c) { return c.first >= middle; });
     return 6 * (report_.after - half->second) < options_.target - report_.after;
   }
 
-  static constexpr double as_far_as_it_goes = 70.53; ///< that of a regular tetrahedron: no angle to reach
-  static constexpr double last_bound = 20;           ///< degrees, up to where the whole mesh is worked on
-  static constexpr int passes_of_moves = 3;          ///< before insertions
+  static constexpr double last_bound = 20;  ///< degrees, up to where the whole mesh is worked on
+  static constexpr int passes_of_moves = 3; ///< before insertions
   static constexpr int insertion_trials = 200;
   static constexpr std::size_t patience = 200000; ///< trials
   static constexpr int most_idle = 40;            ///< passes that leave the worst cell as it is

@@ -6,9 +6,10 @@
 #ifndef WEFT_SPATIAL_TOPOLOGICAL_DISK_3_H
 #define WEFT_SPATIAL_TOPOLOGICAL_DISK_3_H
 
+#include <weft/spatial/Restricted_delaunay_3.h>
+
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -41,25 +42,18 @@ bool has_topological_disk(const Restricted& mesh, typename Restricted::Vertex_ha
 {
   using Vertex_handle = typename Restricted::Vertex_handle;
   using Link_edge = std::pair<Vertex_handle, Vertex_handle>;
-  thread_local std::vector<typename Restricted::Cell_handle> cells;
   thread_local std::vector<Link_edge> link, link_of_one;
   thread_local std::vector<std::pair<int, int>> sides;
-  cells.clear();
   link.clear();
   sides.clear();
-  mesh.triangulation().incident_cells(v, std::back_inserter(cells));
-  for (const auto c : cells)
-    for (int i = 0; i < 4; ++i) {
-      if (c->vertex(i) == v) continue;
-      const auto* f = mesh.facet(c, i);
-      if (!f || f->cell != c) continue; // each facet once
-      Vertex_handle ends[2];
-      int n = 0;
-      for (int k = 0; k < 4; ++k)
-        if (k != i && c->vertex(k) != v) ends[n++] = c->vertex(k);
-      link.emplace_back(ends[0], ends[1]);
-      sides.emplace_back(std::minmax(c->subdomain(), c->neighbor(i)->subdomain()));
-    }
+  for_each_facet_at(mesh, v, [&](const typename Restricted::Restricted_facet& f) {
+    Vertex_handle ends[2];
+    int n = 0;
+    for (int k = 0; k < 4; ++k)
+      if (k != f.index && f.cell->vertex(k) != v) ends[n++] = f.cell->vertex(k);
+    link.emplace_back(ends[0], ends[1]);
+    sides.emplace_back(std::minmax(f.cell->subdomain(), f.cell->neighbor(f.index)->subdomain()));
+  });
   const auto differs = [&](const std::pair<int, int>& s) { return s != sides.front(); };
   if (std::none_of(sides.begin(), sides.end(), differs)) return is_one_cycle(link);
   thread_local std::vector<int> subdomains;
