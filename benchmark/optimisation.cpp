@@ -80,7 +80,7 @@ std::string yes(bool b)
 
 std::string percent(double share)
 {
-  return text(100 * share, 0);
+  return share < 0 ? "" : text(100 * share, 0);
 }
 
 // ---- a
@@ -152,9 +152,9 @@ void print_smoothers(const Smoother_run& r)
 
 std::vector<std::string> sweep_head()
 {
-  return {"input",    "vertices",    "sweep",    "ms",      "Delaunay ms",        "ratio",
-          "sizing %", "positions %", "moving %", "flips %", "one by one, anew %", "labels %",
-          "in place", "one by one",  "anew",     "flips",   "CGAL's ODT, ratio"};
+  return {"input",    "vertices",    "sweep",    "ms",      "Delaunay ms", "ratio",
+          "sizing %", "positions %", "moving %", "flips %", "anew %",      "labels %",
+          "in place", "stayed",      "anew",     "flips",   "regions",     "CGAL's ODT, ratio"};
 }
 
 void print_sweeps(const std::string& input, const Sweep_costs& r)
@@ -167,8 +167,9 @@ void print_sweeps(const std::string& input, const Sweep_costs& r)
     std::cout << markdown_row({input, count(r.vertices), m == &r.first ? "1st" : "31st to 35th",
                                text(1e3 * m->seconds, 1), text(1e3 * m->delaunay, 1), text(m->ratio(), 2),
                                percent(m->sizing), percent(m->positions), percent(m->moving), percent(m->flips),
-                               percent(m->rebuilding), percent(m->labels), count(m->in_place), count(m->one_by_one),
-                               count(m->rebuilt), count(m->flipped), m == &r.first ? text(r.cgal, 1) : ""})
+                               percent(m->rebuilding), percent(m->labels), count(m->in_place), count(m->stayed),
+                               count(m->rebuilt), count(m->flipped), count(m->regions),
+                               m == &r.first ? text(r.cgal, 1) : ""})
               << std::flush;
 }
 

@@ -178,10 +178,20 @@ inline Smoother_run smoother_run(const Spatial_domain& domain, const Bounds& bou
 /// One sweep against a Delaunay triangulation of the same points.
 struct Sweep_cost
 {
-  double seconds = 0, delaunay = 0; ///< user time
-  double sizing = 0, positions = 0; ///< shares of wall time
-  double moving = 0, flips = 0, rebuilding = 0, labels = 0;
-  double in_place = 0, one_by_one = 0, rebuilt = 0, flipped = 0; ///< vertices, and flips
+  double seconds = 0, delaunay = 0;   ///< user time
+  double sizing = -1, positions = -1; ///< shares of wall time; -1: not measured
+  double moving = -1, flips = -1, rebuilding = -1, labels = -1;
+  double in_place = 0, stayed = 0, rebuilt = 0, flipped = 0, regions = 0; ///< vertices, flips, and regions built anew
+
+  /// Adds the counts of so many sweeps.
+  void count(const weft::Relocation_counts_3& r, int sweeps)
+  {
+    in_place += static_cast<double>(r.in_place) / sweeps;
+    stayed += static_cast<double>(r.put_back) / sweeps;
+    rebuilt += static_cast<double>(r.rebuilt) / sweeps;
+    flipped += static_cast<double>(r.flips) / sweeps;
+    regions += static_cast<double>(r.regions) / sweeps;
+  }
 
   double ratio() const { return seconds / delaunay; }
 };
@@ -189,7 +199,7 @@ struct Sweep_cost
 struct Sweep_costs
 {
   double vertices = -1;
-  Sweep_cost first, late; ///< on the refined mesh; after 30 sweeps
+  Sweep_cost first, late; ///< on the refined mesh; after 30 sweeps of the same run
   double cgal = -1;       ///< one sweep of CGAL's ODT against Delaunay of its points
   char failure[200] = "";
 };
@@ -204,48 +214,61 @@ inline double delaunay_seconds(const Weft_mesh& mesh)
   return (user_seconds() - start) / times;
 }
 
-/// So many sweeps, one by one, on average.
-inline Sweep_cost sweep_cost(Weft_mesh& mesh, const weft::Criteria_3<Spatial_kernel>& criteria, int sweeps)
+/// The first sweep, by itself.
+inline Sweep_cost first_sweep_cost(Weft_mesh& mesh, const weft::Criteria_3<Spatial_kernel>& criteria)
 {
   weft::Smooth_options_3 options;
   options.keep_criteria = false;
   options.max_sweeps = 1;
   Sweep_cost cost;
   cost.delaunay = delaunay_seconds(mesh);
-  double wall = 0;
-  for (int i = 0; i < sweeps; ++i) {
-    const double start = user_seconds();
-    const weft::Smooth_report_3 report = weft::smooth_3(mesh, criteria, options);
-    cost.seconds += (user_seconds() - start) / sweeps;
-    const weft::Relocation_counts_3& r = report.relocations;
-    wall += report.seconds;
-    cost.sizing += report.sizing_seconds;
-    cost.positions += report.position_seconds;
-    cost.moving += r.moving_seconds;
-    cost.flips += r.flipping_seconds;
-    cost.rebuilding += r.rebuilding_seconds;
-    cost.labels += r.classifying_seconds;
-    cost.in_place += static_cast<double>(r.in_place) / sweeps;
-    cost.one_by_one += static_cast<double>(r.one_by_one) / sweeps;
-    cost.rebuilt += static_cast<double>(r.rebuilt) / sweeps;
-    cost.flipped += static_cast<double>(r.flips) / sweeps;
-  }
-  for (double* share : {&cost.sizing, &cost.positions, &cost.moving, &cost.flips, &cost.rebuilding, &cost.labels})
-    *share /= wall;
+  const double start = user_seconds();
+  const weft::Smooth_report_3 report = weft::smooth_3(mesh, criteria, options);
+  cost.seconds = user_seconds() - start;
+  cost.count(report.relocations, 1);
+  const weft::Relocation_counts_3& r = report.relocations;
+  cost.sizing = report.sizing_seconds / report.seconds;
+  cost.positions = report.position_seconds / report.seconds;
+  cost.moving = r.moving_seconds / report.seconds;
+  cost.flips = r.flipping_seconds / report.seconds;
+  cost.rebuilding = r.rebuilding_seconds / report.seconds;
+  cost.labels = r.classifying_seconds / report.seconds;
+  return cost;
+}
+
+/// The last sweeps of one run, on average: a run that ends before them tells what they add to its counts.
+inline Sweep_cost last_sweeps_cost(Weft_mesh& shorter, Weft_mesh& mesh,
+                                   const weft::Criteria_3<Spatial_kernel>& criteria, int sweeps, int last)
+{
+  weft::Smooth_options_3 options;
+  options.keep_criteria = false;
+  options.max_sweeps = sweeps - last;
+  const weft::Relocation_counts_3 before = weft::smooth_3(shorter, criteria, options).relocations;
+  std::vector<double> starts; // of the sweeps
+  options.max_sweeps = sweeps;
+  options.go_on = [&] {
+    starts.push_back(user_seconds());
+    return true;
+  };
+  const weft::Relocation_counts_3 after = weft::smooth_3(mesh, criteria, options).relocations;
+  starts.push_back(user_seconds());
+  Sweep_cost cost;
+  last = std::min(last, static_cast<int>(starts.size()) - 1); // it may have converged
+  cost.seconds = (starts.back() - starts[starts.size() - 1 - static_cast<std::size_t>(last)]) / last;
+  cost.count(after, last);
+  cost.count(before, -last);
+  cost.delaunay = delaunay_seconds(mesh);
   return cost;
 }
 
 inline void run_sweep_costs(const Spatial_domain& domain, const Bounds& bounds, bool with_cgal, Sweep_costs& m)
 {
   const auto criteria = weft_criteria(domain.input(), bounds);
-  Weft_mesh mesh = refined_mesh(domain, bounds);
+  Weft_mesh mesh = refined_mesh(domain, bounds), other = refined_mesh(domain, bounds);
   m.vertices = static_cast<double>(mesh.vertices().size());
-  m.first = sweep_cost(mesh, criteria, 1);
-  weft::Smooth_options_3 options;
-  options.keep_criteria = false;
-  options.max_sweeps = 29;
-  weft::smooth_3(mesh, criteria, options);
-  m.late = sweep_cost(mesh, criteria, 5);
+  m.late = last_sweeps_cost(other, mesh, criteria, 35, 5);
+  mesh = refined_mesh(domain, bounds);
+  m.first = first_sweep_cost(mesh, criteria);
   if (!with_cgal) return;
   Cgal_complex complex = mesh_with_cgal(domain.cgal_domain(), bounds, bounds.size);
   std::vector<Spatial_kernel::Point_3> points;
@@ -399,9 +422,9 @@ enum class Preparation
   odt
 };
 
-/// What is left to keep after smoothing that kept no criterion, nor the distance to the surface, as in the thesis. Where
-/// facets may get no farther from the surface than they have come, a facet with an angle of 16 degrees that the free
-/// sweeps leave on the dinosaur ends everything at 19.3 degrees.
+/// What is left to keep after smoothing that kept no criterion, nor the distance to the surface, as in the thesis.
+/// Where facets may get no farther from the surface than they have come, a facet with an angle of 16 degrees that the
+/// free sweeps leave on the dinosaur ends everything at 19.3 degrees.
 inline weft::Criteria_3<Spatial_kernel> topology_alone()
 {
   weft::Criteria_3<Spatial_kernel> criteria;

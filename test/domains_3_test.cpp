@@ -114,7 +114,7 @@ TEST_CASE("crossings and projections of an implicit function lie on its boundary
     CHECK(std::sqrt(CGAL::squared_distance(hit.point, p)) <= 1.05 * std::abs(1 - r) + 1e-3 * 3.8);
     std::vector<weft::Surface_hit_3<K>> hits;
     const Point q(number(), number(), number());
-    CHECK(oracle.intersect(p, q, hits) == (oracle.subdomain(p) != oracle.subdomain(q)));
+    CHECK(oracle.intersect(p, q, hits) == (oracle.subdomain(p) ^ oracle.subdomain(q)));
     for (const auto& h : hits)
       CHECK(std::sqrt(CGAL::squared_distance(h.point, Point(0, 0, 0))) == Approx(1).epsilon(1e-8));
   }
@@ -349,7 +349,7 @@ TEST_CASE("the subdomain of a point is that of the last surface around it")
       if (single[s].subdomain(p) != 0) wanted = static_cast<int>(s) + 1;
     CHECK(oracle.subdomain(p) == wanted);
     std::vector<weft::Surface_hit_3<K>> hits;
-    CHECK(oracle.intersect(last, p, hits) == (oracle.subdomain(last) != wanted));
+    CHECK(oracle.intersect(last, p, hits) == (oracle.subdomain(last) ^ wanted));
     last = p;
   }
 }

@@ -30,6 +30,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -330,6 +331,142 @@ TEST_CASE("after many vertices have moved at once, the triangulation is that of 
     CHECK(all.one_by_one > 0);
     CHECK(all.rebuilt > 0);
     CHECK(all.flips > 0);
+  }
+}
+
+TEST_CASE("vertices that may stay do so instead of being moved one by one, and the others move in place")
+{
+  std::mt19937 random(4);
+  for (const Case& c : cases()) {
+    const Oracle oracle = oracle_of(c.surface);
+    auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), refinement());
+    std::size_t staying = 0;
+    for (int round = 0; round < 4; ++round) {
+      std::vector<int> ids;
+      std::vector<Point> targets, before;
+      for (const auto v : mesh.vertices()) {
+        if (v->location().dimension < 3) continue;
+        ids.push_back(v->id());
+        before.push_back(v->point());
+        targets.push_back(v->point() + 0.25 * c.size * random_vector(random));
+      }
+      std::vector<std::size_t> stayed;
+      const weft::Relocation_counts_3 counts = mesh.relocate(ids, targets, &stayed);
+      CHECK(counts.one_by_one == 0);
+      CHECK(counts.put_back == stayed.size());
+      CHECK(std::is_sorted(stayed.begin(), stayed.end()));
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        const bool stays = std::binary_search(stayed.begin(), stayed.end(), i);
+        CHECK(mesh.vertices()[static_cast<std::size_t>(ids[i])]->point() == (stays ? before[i] : targets[i]));
+      }
+      staying += stayed.size();
+      check_delaunay(mesh);
+    }
+    CHECK(staying > 0);
+  }
+}
+
+/// Random points with running ids, in a box whose corners have none.
+Triangulation random_triangulation(unsigned seed, int n)
+{
+  std::mt19937 random(seed);
+  Triangulation tr;
+  for (int i = 0; i < 8; ++i) tr.insert(Point(i & 1 ? 9 : -9, i & 2 ? 9 : -9, i & 4 ? 9 : -9));
+  for (int i = 0; i < n; ++i) tr.insert(Point(0, 0, 0) + random_vector(random))->set_id(i);
+  return tr;
+}
+
+TEST_CASE("where flips are stuck, a few cells built anew set them free")
+{
+  weft::Relocation_counts_3 all;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    Triangulation tr = random_triangulation(seed, 4000);
+    const double step = 0.02 * (1 + seed % 4); // neighbours are 0.07 apart
+    std::mt19937 random(seed + 100);
+    std::vector<Vertex_handle> vertices;
+    std::vector<Point> targets;
+    for (const auto v : tr.finite_vertex_handles())
+      if (v->id() >= 0) vertices.push_back(v), targets.push_back(v->point() + step * random_vector(random));
+    std::vector<std::size_t> deferred;
+    weft::Relocation_counts_3 counts;
+    weft::Relocator_3<Triangulation> relocator(tr);
+    const auto ignore = [](Cell_handle) {};
+    relocator.place(vertices, targets, ignore, deferred);
+    relocator.restore_delaunay(ignore, counts);
+    CHECK(tr.tds().is_valid());
+    std::vector<Point> points;
+    for (const auto v : tr.finite_vertex_handles()) points.push_back(v->point());
+    const CGAL::Delaunay_triangulation_3<K> scratch(points.begin(), points.end());
+    CHECK(cells_of(tr) == cells_of(scratch));
+    all += counts;
+  }
+  CHECK(all.flips > 0);
+  CHECK(all.regions > 0);
+  CHECK(all.stuck == 0);
+}
+
+TEST_CASE("a region of a Delaunay triangulation that is built anew is as it was")
+{
+  Triangulation tr = random_triangulation(5, 300);
+  const auto before = cells_of(tr);
+  std::mt19937 random(6);
+  weft::Region_rebuilder_3<Triangulation> rebuilder(tr);
+  for (int round = 0; round < 50; ++round) {
+    std::vector<Cell_handle> cells;
+    for (const auto c : tr.finite_cell_handles())
+      if (c->vertex(0)->id() >= 0 && c->vertex(1)->id() >= 0 && c->vertex(2)->id() >= 0 && c->vertex(3)->id() >= 0)
+        cells.push_back(c);
+    const Cell_handle c = cells[random() % cells.size()];
+    std::set<Cell_handle> gone;
+    const auto made = rebuilder.rebuild(c, static_cast<int>(random() % 4), [&](Cell_handle d) { gone.insert(d); });
+    CHECK(!made.empty());
+    CHECK(made.size() == gone.size());
+    CHECK(gone.count(c) == 1);
+    CHECK(tr.is_valid());
+    CHECK(cells_of(tr) == before);
+  }
+}
+
+TEST_CASE("a mesh sorted in memory is the same mesh")
+{
+  for (const Case& c : cases()) {
+    const Oracle oracle = oracle_of(c.surface);
+    Restricted mesh(oracle);
+    {
+      auto [refined, report] = weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), refinement());
+      std::vector<Point> points;
+      std::vector<weft::Vertex_location_3> locations;
+      std::vector<std::size_t> order;
+      for (std::size_t i = 0; i < refined.vertices().size(); ++i) order.push_back(i);
+      std::shuffle(order.begin(), order.end(), std::mt19937(7));
+      for (const std::size_t i : order) {
+        points.push_back(refined.vertices()[i]->point());
+        locations.push_back(refined.vertices()[i]->location());
+      }
+      mesh.insert(points, locations);
+    }
+    const auto picture = [&] {
+      std::vector<std::pair<Point, weft::Vertex_location_3>> vertices;
+      for (const auto v : mesh.vertices()) vertices.emplace_back(v->point(), v->location());
+      std::vector<std::pair<int, int>> creases;
+      for (const auto& e : mesh.creases().edges()) creases.emplace_back(e.source->id(), e.target->id());
+      std::vector<Point> steiner;
+      for (const auto& f : mesh.facets()) steiner.push_back(f.steiner);
+      return std::make_tuple(vertices, cells_of(mesh.triangulation()), creases, steiner);
+    };
+    const auto before = picture();
+    mesh.sort_in_memory();
+    CHECK(picture() == before);
+    for (std::size_t i = 0; i < mesh.vertices().size(); ++i) CHECK(mesh.vertices()[i]->id() == static_cast<int>(i));
+    check_delaunay(mesh);
+    std::vector<int> ids; // it can be worked with
+    std::vector<Point> targets;
+    std::mt19937 random(8);
+    for (const auto v : mesh.vertices())
+      if (v->location().dimension == 3)
+        ids.push_back(v->id()), targets.push_back(v->point() + 0.02 * c.size * random_vector(random));
+    mesh.relocate(ids, targets);
+    check_delaunay(mesh);
   }
 }
 

@@ -54,8 +54,9 @@ public:
   int subdomain(const Point& p) const { return model_.subdomain(p); }
 
   /// Appends where the segment pq meets the boundary, in order.
-  /// \returns whether p and q lie in different subdomains, without ever contradicting `subdomain()`.
-  bool intersect(const Point& p, const Point& q, std::vector<Surface_hit>& hits) const
+  /// \returns the exclusive or of the subdomains of p and q, which is 0 where they are the same, without ever
+  /// contradicting `subdomain()`.
+  int intersect(const Point& p, const Point& q, std::vector<Surface_hit>& hits) const
   {
     return model_.intersect(p, q, hits);
   }

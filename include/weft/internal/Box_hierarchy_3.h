@@ -85,16 +85,16 @@ public:
   Framed_segment_3 clip(const std::array<double, 3>& p, const std::array<double, 3>& q) const
   {
     constexpr double wall = 1 + 2. * box_slack;
+    Framed_segment_3 result; // the one that is returned everywhere: a copy would have to wait for its floats
     double first = 0, last = 1;
     for (int k = 0; k < 3; ++k) {
       if (std::abs(p[k]) <= wall && std::abs(q[k]) <= wall) continue;
       const double d = q[k] - p[k];
-      if (d == 0) return {};
+      if (d == 0) return result;
       const double in = ((d > 0 ? -wall : wall) - p[k]) / d, out = ((d > 0 ? wall : -wall) - p[k]) / d;
       first = std::max(first, in), last = std::min(last, out);
     }
-    if (!(first <= last)) return {};
-    Framed_segment_3 result;
+    if (!(first <= last)) return result;
     for (int k = 0; k < 3; ++k) {
       const double d = q[k] - p[k];
       result.origin[k] = static_cast<float>(p[k] + first * d);

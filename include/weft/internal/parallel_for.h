@@ -18,11 +18,11 @@ namespace weft {
 namespace internal {
 
 /// Calls `body(i)` for i in [0, n), on at most `threads` threads.
+/// \param grain the fewest of them that a thread takes at once.
 template <class Body>
-void parallel_for(std::size_t n, int threads, const Body& body)
+void parallel_for(std::size_t n, int threads, const Body& body, std::size_t grain = 512)
 {
 #ifdef WEFT_LINKED_WITH_TBB
-  constexpr std::size_t grain = 512;
   if (threads > 1 && n > 2 * grain) {
     tbb::task_arena arena(threads);
     arena.execute([&] {
@@ -34,6 +34,7 @@ void parallel_for(std::size_t n, int threads, const Body& body)
   }
 #else
   static_cast<void>(threads);
+  static_cast<void>(grain);
 #endif
   for (std::size_t i = 0; i < n; ++i) body(i);
 }

@@ -3,11 +3,13 @@
 // Moves many vertices of a spatial Delaunay triangulation at once and restores it by flips: the idea of filtering
 // relocations (Tournois 2009, sec. 3.3.2), with all vertices moved first. Vertices that would turn a cell over are put
 // back; facets that ceased to be Delaunay are flipped (2-3, 3-2, 4-4). Exact predicates decide every orientation and
-// flip, cospherical points by symbolic perturbation. Unlike in the plane flips may get stuck: then the triangulation is
-// a valid one but not Delaunay, which the counts tell, and has to be built anew.
+// flip, cospherical points by symbolic perturbation. Unlike in the plane flips may get stuck: there a few cells are
+// built anew. If that doesn't help the triangulation is a valid one but not Delaunay, which the counts tell.
 
 #ifndef WEFT_RELOCATE_RELOCATOR_3_H
 #define WEFT_RELOCATE_RELOCATOR_3_H
+
+#include <weft/relocate/Region_rebuilder_3.h>
 
 #include <CGAL/enum.h>
 #include <CGAL/Kernel/global_functions.h>
@@ -16,6 +18,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,7 +32,8 @@ struct Relocation_counts_3
   std::size_t rebuilt = 0;    ///< vertices that moved when the triangulation was built anew
   std::size_t put_back = 0;   ///< vertices that stayed where they were
   std::size_t flips = 0;
-  std::size_t stuck = 0; ///< facets that no flip could make Delaunay
+  std::size_t regions = 0; ///< places where flips were stuck and a few cells were built anew
+  std::size_t stuck = 0;   ///< facets that weren't Delaunay after that
   std::size_t rebuilds = 0;
   // Wall time:
   double moving_seconds = 0;      ///< moving vertices and putting those back that would turn cells over
@@ -44,6 +48,7 @@ struct Relocation_counts_3
     rebuilt += o.rebuilt;
     put_back += o.put_back;
     flips += o.flips;
+    regions += o.regions;
     stuck += o.stuck;
     rebuilds += o.rebuilds;
     add_times(o);
@@ -99,19 +104,9 @@ public:
     for (const Cell_handle c : cells_)
       for (int i = 0; i < 4; ++i)
         if (is_first(c, i) && is_bad(c, i)) enqueue(c, i);
-    std::size_t flips_before = counts.flips;
     while (true) {
-      while (!queue_.empty()) {
-        const Queued f = queue_.back();
-        queue_.pop_back();
-        Cell_handle c;
-        int i;
-        if (find(f, c, i) && is_bad(c, i) && !flip(c, i, changing, counts)) stuck_.push_back(f);
-      }
-      // Flips elsewhere may have freed what was stuck: as long as there were some, try again.
-      if (stuck_.empty() || counts.flips == flips_before) break;
-      flips_before = counts.flips;
-      queue_.swap(stuck_);
+      empty_queue(changing, counts);
+      if (stuck_.empty() || !rebuild_regions(changing, counts)) break;
     }
     for (const Queued& f : stuck_) {
       Cell_handle c;
@@ -248,6 +243,46 @@ private:
     return true;
   }
 
+  /// Flips until nothing is left that can be; the rest is stuck.
+  template <class Changing>
+  void empty_queue(const Changing& changing, Relocation_counts_3& counts)
+  {
+    std::size_t flips_before = counts.flips;
+    while (true) {
+      while (!queue_.empty()) {
+        const Queued f = queue_.back();
+        queue_.pop_back();
+        Cell_handle c;
+        int i;
+        if (find(f, c, i) && is_bad(c, i) && !flip(c, i, changing, counts)) stuck_.push_back(f);
+      }
+      // Flips elsewhere may have freed what was stuck: as long as there were some, try again.
+      if (stuck_.empty() || counts.flips == flips_before) return;
+      flips_before = counts.flips;
+      queue_.swap(stuck_);
+    }
+  }
+
+  /// Builds cells anew around what is stuck. Whether there was something to do it to, so that flips may go on.
+  template <class Changing>
+  bool rebuild_regions(const Changing& changing, Relocation_counts_3& counts)
+  {
+    if (!rebuilder_) rebuilder_.emplace(tr_);
+    bool done = false;
+    for (const Queued& f : stuck_) {
+      Cell_handle c;
+      int i;
+      if (counts.regions >= most_regions || !find(f, c, i) || !is_bad(c, i)) continue;
+      const std::vector<Cell_handle> made = rebuilder_->rebuild(c, i, changing);
+      settle(made, changing);
+      counts.regions += !made.empty();
+      done = done || !made.empty();
+    }
+    if (done) queue_.insert(queue_.end(), stuck_.begin(), stuck_.end());
+    if (done) stuck_.clear();
+    return done;
+  }
+
   template <class Changing>
   bool flip(Cell_handle c, int i, const Changing& changing, Relocation_counts_3& counts)
   {
@@ -304,7 +339,7 @@ private:
     std::size_t m = 1;
     for (int j = 0; j < 4; ++j)
       if (first->vertex(j) != p && first->vertex(j) != q) made[m++] = first->neighbor(j);
-    for (const Cell_handle d : made) settle(d, changing);
+    settle(made, changing);
   }
 
   /// 3-2: the edge ab of c gives way to the facet around it.
@@ -320,8 +355,7 @@ private:
     const int k = outer->index(c);
     tr_.tds().flip_flippable(c, a, b);
     const Cell_handle first = outer->neighbor(k), second = first->neighbor(first->index(u));
-    settle(first, changing);
-    settle(second, changing);
+    settle(std::array<Cell_handle, 2>{first, second}, changing);
   }
 
   /// 4-4: by a 2-3 that makes a flat cell and a 3-2 that unmakes it.
@@ -333,23 +367,32 @@ private:
     flip_facet(c, i, changing);
     Cell_handle flat;
     int ip, iq, iu, iv;
-    if (tr_.is_cell(p, q, u, v, flat, ip, iq, iu, iv)) flip_edge(flat, iu, iv, changing);
+    if (!tr_.is_cell(p, q, u, v, flat, ip, iq, iu, iv)) return;
+    const Cell_handle beside = flat->neighbor(iu); // of p, q, v and the facet's third vertex; stays
+    flip_edge(flat, iu, iv, changing);
+    enqueue(beside, beside->index(v));
   }
 
-  template <class Changing>
-  void settle(Cell_handle c, const Changing& changing)
+  /// Cells that are Delaunay among themselves, as a flip that was called for makes them: facets between them needn't be
+  /// looked at.
+  template <class Cells, class Changing>
+  void settle(const Cells& made, const Changing& changing)
   {
-    changing(c);
-    for (int i = 0; i < 4; ++i) enqueue(c, i);
+    for (const Cell_handle c : made) changing(c);
+    for (const Cell_handle c : made)
+      for (int i = 0; i < 4; ++i)
+        if (made.size() > most_flipped || std::find(made.begin(), made.end(), c->neighbor(i)) == made.end())
+          enqueue(c, i);
   }
 
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static constexpr std::size_t none = static_cast<std::size_t>(-1), most_regions = 200, most_flipped = 3;
 
   Triangulation& tr_;
   std::vector<Point> old_;
   std::vector<std::size_t> index_; ///< by id, place in the list of moved vertices
   std::vector<Cell_handle> cells_, star_, inverted_;
   std::vector<Queued> queue_, stuck_;
+  std::optional<Region_rebuilder_3<Triangulation>> rebuilder_; ///< made when needed first
 };
 
 } // namespace weft

@@ -57,15 +57,15 @@ public:
   int subdomain(const Point& p) const { return is_in_box(p) ? derived().label(p) : 0; }
 
   /// Appends one change of label between p and q, the same in either direction; none if their labels are the same.
-  /// Returns whether they differ.
+  /// Returns their exclusive or.
   /// \param at_p,at_q the labels of the ends.
-  bool intersect(const Point& p, const Point& q, int at_p, int at_q, std::vector<Surface_hit_3<K>>& hits) const
+  int intersect(const Point& p, const Point& q, int at_p, int at_q, std::vector<Surface_hit_3<K>>& hits) const
   {
-    if (at_p == at_q) return false;
+    if (at_p == at_q) return 0;
     hits.push_back(p < q ? derived().crossing(p, q, at_p, at_q) : derived().crossing(q, p, at_q, at_p));
-    return true;
+    return at_p ^ at_q;
   }
-  bool intersect(const Point& p, const Point& q, std::vector<Surface_hit_3<K>>& hits) const
+  int intersect(const Point& p, const Point& q, std::vector<Surface_hit_3<K>>& hits) const
   {
     return intersect(p, q, subdomain(p), subdomain(q), hits);
   }

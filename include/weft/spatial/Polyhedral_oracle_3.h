@@ -98,8 +98,9 @@ public:
   /// triangle, an edge or a vertex once, in order from p to q, ties by coordinates. Where the segment runs within a
   /// triangle the ends of the piece are reported. On an edge or a vertex, the patch is that of the incident triangle
   /// with the smallest index.
-  /// \returns whether p and q lie in different subdomains: `subdomain(p) != subdomain(q)`, always.
-  bool intersect(const Point& p, const Point& q, std::vector<Surface_hit_3<K>>& hits) const
+  /// \returns the exclusive or of the subdomains of p and q, 0 if they are the same: `subdomain(p) ^ subdomain(q)`,
+  /// always.
+  int intersect(const Point& p, const Point& q, std::vector<Surface_hit_3<K>>& hits) const
   {
     const auto first = hits.size();
     int change = 0;
@@ -112,10 +113,9 @@ public:
         hits.push_back({pair.point(), pair.patch()});
       return false;
     });
-    bool differ = change != 0;
-    if (!contacts.empty() && add_contacts(p, q, contacts, hits)) differ = subdomain(p) != subdomain(q);
+    if (!contacts.empty() && add_contacts(p, q, contacts, hits)) change = subdomain(p) ^ subdomain(q);
     if (hits.size() - first > 1) sort_along(p, q, hits, first);
-    return differ;
+    return change;
   }
 
   /// Whether the closed segment pq and the boundary have a point in common.

@@ -143,6 +143,7 @@ public:
   /// The second half; does nothing if the first was stopped.
   void optimise()
   {
+    if (goes_on_) mesh_.sort_in_memory();
     goes_on_ = goes_on_ && coarsen_and_smooth();
     begin_stage("perturbation", Stage::polishing);
     if (goes_on_ && options_.min_dihedral_angle > 0) perturb();

@@ -104,10 +104,10 @@ public:
       return;
     }
     std::vector<Surface_hit> hits;
-    const bool differ = mesh_.oracle().intersect(c->circumcenter(), n->circumcenter(), hits);
+    const int change = mesh_.oracle().intersect(c->circumcenter(), n->circumcenter(), hits);
     const Restricted_facet* f = mesh_.facet(c, i);
     if (f != mesh_.facet(n, n->index(c))) return fault("the cells of a facet remember different records");
-    if (differ != (c->subdomain() != n->subdomain())) fault("the labels of two cells disagree with the boundary");
+    if (change != (c->subdomain() ^ n->subdomain())) fault("the labels of two cells disagree with the boundary");
     if (!f && !hits.empty()) return fault("a restricted facet is missing");
     if (!f) return;
     ++restricted;

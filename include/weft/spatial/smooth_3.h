@@ -125,7 +125,10 @@ private:
     Smoothing_context_3<Restricted, Sizing> context(mesh_, sizing_);
     context.measure(cells_, options_.threads);
     std::vector<std::optional<Point>> wanted(is_free.size());
-    internal::parallel_for(is_free.size(), options_.threads, [&](std::size_t i) {
+    // In the order of ids, which is that of refinement, two thirds of the oracle's time are waits for memory.
+    const std::vector<std::size_t>& order = mesh_.spatial_order();
+    internal::parallel_for(order.size(), options_.threads, [&](std::size_t k) {
+      const std::size_t i = order[k];
       if (is_free[i] && steps_[i] > least_step) wanted[i] = target(context, mesh_.vertices()[i]);
     });
     ids_.clear();
@@ -200,8 +203,17 @@ private:
     const std::optional<Point> p =
         project_on_location(mesh_.oracle(), v->point() + (std::min)(step, reach / length) * move, v->location());
     if (!p || !(CGAL::to_double(CGAL::squared_distance(*p, v->point())) > least * least)) return std::nullopt;
-    if (v->location().dimension == 3 && mesh_.oracle().subdomain(*p) != v->location().index) return std::nullopt;
+    if (v->location().dimension == 3 && leaves_subdomain(v, *p)) return std::nullopt;
     return p;
+  }
+
+  /// Short segments are cheaper to ask for than where a point lies, if the oracle doesn't begin with the latter.
+  bool leaves_subdomain(Vertex_handle v, const Point& p) const
+  {
+    if constexpr (Restricted::Oracle::labels_first) return mesh_.oracle().subdomain(p) != v->location().index;
+    thread_local std::vector<typename Restricted::Surface_hit> hits;
+    hits.clear();
+    return mesh_.oracle().intersect(v->point(), p, hits) != 0;
   }
 
   static double shortest_edge(Vertex_handle v, const std::vector<Cell_handle>& star)
@@ -306,13 +318,20 @@ private:
     return project_on_location(mesh_.oracle(), from + part * (to - from), at).value_or(from);
   }
 
-  /// Moves that had to be shortened begin shorter in the next sweep. So do those of vertices that have stayed since
-  /// they would have had to be taken away and put back, which took a fifth of a sweep near convergence.
+  /// Moves that had to be shortened begin shorter in the next sweep. So do, a little, those of vertices that have
+  /// stayed since they would have turned cells over: cells below 15 degrees after 60 sweeps of elephant, homer, anchor
+  /// with 0.5, 0.7, 0.85 of the step are 124, 184, 121, then 144, 183, 133 and 127, 149, 129.
   void learn_steps()
   {
+    auto stayed = stayed_.begin();
     for (std::size_t i = 0; i < ids_.size(); ++i) {
       double& step = steps_[static_cast<std::size_t>(ids_[i])];
-      step = parts_[i] == 1 ? (std::min)(1., 1.5 * step) : step * (std::max)(parts_[i], least_part);
+      if (stayed != stayed_.end() && *stayed == i) {
+        step *= after_staying;
+        ++stayed;
+      } else {
+        step = parts_[i] == 1 ? (std::min)(1., 1.5 * step) : step * (std::max)(parts_[i], least_part);
+      }
       kept_ -= parts_[i] == 0;
       report_.rejected += parts_[i] < 1;
     }
@@ -333,7 +352,7 @@ private:
     return sum / 20;
   }
 
-  static constexpr double least_relaxation = 0.1, least_step = 0.05, least_part = 0.25;
+  static constexpr double least_relaxation = 0.1, least_step = 0.05, least_part = 0.25, after_staying = 0.85;
   static constexpr int most_rounds = 20, most_rings = 4;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
@@ -348,7 +367,7 @@ private:
   std::vector<std::size_t> first_;         ///< of each vertex in `stars_`
   std::vector<int> ids_;                   ///< of the vertices that a sweep moves
   std::vector<Point> targets_;
-  std::vector<std::size_t> stayed_; ///< of these, by place: what would have had to be moved one by one
+  std::vector<std::size_t> stayed_; ///< of these, by place, in order: what would have turned cells over
   std::vector<std::size_t> place_;  ///< by id: place in `ids_`
   std::vector<double> parts_;       ///< of these moves, the parts that are made
   std::size_t kept_ = 0;            ///< moves of a sweep that weren't taken back

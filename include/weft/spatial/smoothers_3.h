@@ -78,9 +78,15 @@ public:
     return at_vertices / (n * (n + 1)) + raised(1 / mean, power) * n / (n + 1);
   }
 
-  /// Measures all cells of a list in advance, whose numbers they have to have as `id()`: each is asked for four times.
+  /// Measures all restricted facets in advance, and all cells of a list, whose numbers they have to have as `id()`:
+  /// each is asked for three or four times.
   void measure(const std::vector<Cell_handle>& cells, int threads)
   {
+    const auto& facets = mesh_.facets();
+    areas_.resize(facets.size());
+    internal::parallel_for(facets.size(), threads, [&](std::size_t k) {
+      areas_[k] = facets[k].cell == Cell_handle() ? 0 : measured_area(facets[k].cell, facets[k].index);
+    });
     masses_.resize(cells.size());
     boundaries_.resize(cells.size());
     internal::parallel_for(cells.size(), threads, [&](std::size_t k) {
@@ -88,6 +94,12 @@ public:
       masses_[k] = inside ? measured_mass(cells[k]) : 0;
       boundaries_[k] = inside ? measured_boundary(cells[k]) : 0;
     });
+  }
+
+  /// Area in the metric of the restricted facet opposite to vertex i of a cell.
+  double area(Cell_handle c, int i) const
+  {
+    return areas_.empty() ? measured_area(c, i) : areas_[static_cast<std::size_t>(c->facet_record(i))];
   }
 
   /// Volume of a cell in the metric.
@@ -111,6 +123,13 @@ public:
   }
 
 private:
+  double measured_area(Cell_handle c, int i) const
+  {
+    const std::array<Vertex_handle, 3> v{c->vertex((i + 1) & 3), c->vertex((i + 2) & 3), c->vertex((i + 3) & 3)};
+    return std::sqrt(CGAL::to_double(CGAL::squared_area(v[0]->point(), v[1]->point(), v[2]->point()))) *
+           mean_power<3>(v, 2);
+  }
+
   double measured_mass(Cell_handle c) const
   {
     const double volume = std::abs(CGAL::to_double(
@@ -135,7 +154,7 @@ private:
   const Restricted& mesh_;
   const Sizing& sizing_;
   std::unordered_map<int, std::vector<Crease_end>> crease_ends_;
-  std::vector<double> masses_; ///< by cell id; empty: measured when asked for
+  std::vector<double> areas_, masses_; ///< by facet record, by cell id; empty: measured when asked for
   std::vector<unsigned char> boundaries_;
 };
 
@@ -220,11 +239,7 @@ private:
       for (int i = 0; i < 4; ++i) {
         const auto* f = context.mesh().facet(c, i);
         if (c->vertex(i) == v || !f || f->cell != c) continue;
-        const std::array<typename Context::Vertex_handle, 3> facet{c->vertex((i + 1) & 3), c->vertex((i + 2) & 3),
-                                                                   c->vertex((i + 3) & 3)};
-        const double area =
-            std::sqrt(CGAL::to_double(CGAL::squared_area(facet[0]->point(), facet[1]->point(), facet[2]->point())));
-        pull.add(area * context.template mean_power<3>(facet, 2), f->steiner - p);
+        pull.add(context.area(c, i), f->steiner - p);
       }
     return pull.position(p);
   }
