@@ -93,8 +93,8 @@ public:
   }
 
   /// Copies the triangulation to where vertices and cells lie in memory in the spatial order, after refinement has
-  /// strewn them. Handles don't survive, ids do. Takes a tenth of the time of building it; a first sweep of smoothing
-  /// then takes a fifth less.
+  /// strewn them. Handles don't survive, ids do. Takes 0.10 to 0.18 of the time of building it; a first sweep of
+  /// smoothing then takes a fifth less.
   void sort_in_memory()
   {
     const std::vector<Cell_handle> cells = cells_in_spatial_order();
