@@ -15,14 +15,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <map>
 #include <set>
 #include <vector>
 
 namespace weft {
 
-/// \tparam Triangulation a CGAL Delaunay_triangulation_3 whose vertices and cells have `id()` and `time_stamp()`.
+/// \tparam Triangulation a CGAL Delaunay_triangulation_3 whose vertices have `id()`, and they and cells `time_stamp()`.
 template <class Triangulation>
 class Region_rebuilder_3
 {
@@ -32,9 +31,12 @@ public:
 
   explicit Region_rebuilder_3(Triangulation& tr) : tr_(tr) {}
 
-  /// Rebuilds the region around a facet. Takes O(n^2) for a region of n vertices, mostly a dozen or two; nothing is
-  /// done where it would have to be larger than some hundred cells. \param changing is called with every cell before it
-  /// goes. \returns the new cells; none if it wasn't possible.
+  /// Rebuilds the region around a facet. Takes O(n^2) for a region of n vertices; nothing is done where it would have
+  /// to be larger than some hundred cells.
+  ///
+  /// \param changing is called with every cell before it goes.
+  ///
+  /// \returns the new cells; none if it wasn't possible.
   template <class Changing>
   std::vector<Cell_handle> rebuild(Cell_handle c, int i, const Changing& changing)
   {
