@@ -14,14 +14,12 @@
 #include <weft/spatial/Cell_classifier_3.h>
 #include <weft/spatial/Conflict_zone_3.h>
 #include <weft/spatial/Crease_tracer_3.h>
+#include <weft/spatial/Facet_records_3.h>
 #include <weft/spatial/Feature_incidence_3.h>
+#include <weft/spatial/spatial_order_3.h>
 #include <weft/spatial/Triangulation_3.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/hilbert_sort.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +59,7 @@ public:
         classifier_(oracle, Oracle::is_thread_safe ? threads : 1),
         tr_(std::make_unique<Triangulation>()),
         tracer_(*tr_),
-        facets_of_patch_(static_cast<std::size_t>(oracle.number_of_patches()), 0)
+        facets_(static_cast<std::size_t>(oracle.number_of_patches()))
   {
     insert_box();
     for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) {
@@ -87,7 +85,7 @@ public:
     if (spatial_order_.size() != vertices_.size()) {
       std::vector<Point> points;
       for (const Vertex_handle v : vertices_) points.push_back(v->point());
-      spatial_order_ = sorted_along_curve(points);
+      spatial_order_ = order_along_curve_3<Kernel>(points);
     }
     return spatial_order_;
   }
@@ -97,36 +95,10 @@ public:
   /// smoothing then takes a fifth less.
   void sort_in_memory()
   {
-    const std::vector<Cell_handle> cells = cells_in_spatial_order();
-    auto sorted = std::make_unique<Triangulation>();
-    auto& tds = sorted->tds();
-    tds.clear();
-    tds.set_dimension(3);
-    std::vector<std::pair<Vertex_handle, Vertex_handle>> others; // those without ids, and their copies
-    for (const Vertex_handle v : tr_->all_vertex_handles())
-      if (v->id() < 0) others.emplace_back(v, tds.create_vertex(*v));
-    std::vector<Vertex_handle> vertices(vertices_.size());
-    for (const std::size_t i : spatial_order()) vertices[i] = tds.create_vertex(*vertices_[i]);
-    const auto copy_of = [&](Vertex_handle v) {
-      if (v->id() >= 0) return vertices[static_cast<std::size_t>(v->id())];
-      const auto is_v = [v](const auto& pair) { return pair.first == v; };
-      return std::find_if(others.begin(), others.end(), is_v)->second;
-    };
-    std::vector<Cell_handle> copies;
-    for (const Cell_handle c : cells) copies.push_back(tds.create_cell(*c));
-    for (const Cell_handle c : cells) {
-      const Cell_handle copy = copies[static_cast<std::size_t>(c->id())];
-      for (int i = 0; i < 4; ++i) {
-        copy->set_vertex(i, copy_of(c->vertex(i)));
-        copy->set_neighbor(i, copies[static_cast<std::size_t>(c->neighbor(i)->id())]);
-        copy->vertex(i)->set_cell(copy);
-      }
-    }
-    sorted->set_infinite_vertex(copy_of(tr_->infinite_vertex()));
-    for (Restricted_facet& f : facets_)
-      if (f.cell != Cell_handle()) f.cell = copies[static_cast<std::size_t>(f.cell->id())];
-    vertices_.swap(vertices);
-    tr_.swap(sorted);
+    Ordered_copy_3<Triangulation> copy = copy_in_order(*tr_, vertices_, spatial_order());
+    facets_.set_cells(copy.cells);
+    vertices_.swap(copy.vertices);
+    tr_.swap(copy.triangulation);
     tracer_.set_triangulation(*tr_);
     creases_are_stale_ = true;
     update();
@@ -146,19 +118,11 @@ public:
   }
 
   /// Records of restricted facets; those with a null cell are unused.
-  const std::vector<Restricted_facet>& facets() const { return facets_; }
+  const std::vector<Restricted_facet>& facets() const { return facets_.all(); }
   /// The restricted facet opposite to vertex i of c, or null.
-  const Restricted_facet* facet(Cell_handle c, int i) const
-  {
-    const int record = c->facet_record(i);
-    return record < 0 ? nullptr : &facets_[static_cast<std::size_t>(record)];
-  }
+  const Restricted_facet* facet(Cell_handle c, int i) const { return facets_.find(c, i); }
   /// How many restricted facets have their Steiner point on a patch.
-  int number_of_facets(int patch) const
-  {
-    const auto p = static_cast<std::size_t>(patch);
-    return p < facets_of_patch_.size() ? facets_of_patch_[p] : 0;
-  }
+  int number_of_facets(int patch) const { return facets_.number_on(patch); }
   /// Whether a restricted facet separates the domain from the outside.
   bool is_boundary(const Restricted_facet& f) const
   {
@@ -187,11 +151,10 @@ public:
   {
     std::vector<Cell_handle> star;
     tr_->incident_cells(v, std::back_inserter(star));
-    for (const Cell_handle c : star)
-      for (int i = 0; i < 4; ++i) {
-        forget_facet(c, i);
-        touch(c->vertex(i));
-      }
+    for (const Cell_handle c : star) {
+      facets_.remove(c);
+      touch_vertices_of(c);
+    }
     vertices_[static_cast<std::size_t>(v->id())] = Vertex_handle();
     if (!creases_are_stale_) tracer_.forget(v);
     std::vector<Cell_handle> filling;
@@ -274,11 +237,8 @@ public:
   {
     std::vector<Cell_handle> filling = take_away(v);
     for (const Cell_handle c : filling_left_) {
-      for (int i = 0; i < 4; ++i) {
-        forget_facet(c, i);
-        touch(c->vertex(i));
-      }
-      c->set_classified(false);
+      declassify(c);
+      touch_vertices_of(c);
       filling.push_back(c);
     }
     return filling;
@@ -314,8 +274,7 @@ public:
 private:
   Vertex_handle insert(const Zone& zone, const Vertex_location_3& location, int id)
   {
-    for (const Cell_handle c : zone.cells)
-      for (int i = 0; i < 4; ++i) forget_facet(c, i);
+    for (const Cell_handle c : zone.cells) facets_.remove(c);
     const Facet outer = zone.hull.front();
     const Cell_handle inner = outer.first->neighbor(outer.second);
     const Vertex_handle v =
@@ -325,7 +284,7 @@ private:
     vertices_[static_cast<std::size_t>(id)] = v;
     for (const Facet& f : zone.hull) {
       const Cell_handle c = f.first->neighbor(f.second);
-      for (int i = 0; i < 4; ++i) touch(c->vertex(i));
+      touch_vertices_of(c);
       new_cells_.push_back(c);
     }
     return v;
@@ -359,7 +318,7 @@ public:
     Zone zone;
     creases_are_stale_ = true;
     Cell_handle hint;
-    for (const std::size_t i : sorted_for_insertion(points)) {
+    for (const std::size_t i : insertion_order_3<Kernel>(points)) {
       if (find_conflict_zone(*tr_, points[i], hint, zone) != Zone_result::found) continue;
       hint = insert(zone, locations[i], static_cast<int>(before + i))->cell();
       new_cells_.clear(); // some of them don't live to see the end
@@ -410,7 +369,7 @@ public:
     for (const Cell_handle c : tr_->finite_cell_handles()) {
       if (c->is_classified()) continue;
       new_cells_.push_back(c);
-      for (int i = 0; i < 4; ++i) touch(c->vertex(i));
+      touch_vertices_of(c);
     }
     update();
     counts.classifying_seconds = lap.seconds();
@@ -442,12 +401,12 @@ public:
   /// Makes a vertex count as changed in this version.
   void set_changed(Vertex_handle v) { touch(v); }
   /// The same for a facet, by its record.
-  void set_changed(int record) { facets_[static_cast<std::size_t>(record)].version = update_number_; }
+  void set_changed(int record) { facets_.set_version(record, update_number_); }
 
   /// Cells created before the last call of `update()` and after the one before.
   const std::vector<Cell_handle>& new_cells() const { return classifier_.cells(); }
   /// Numbers of the facet records made by the last call of `update()`.
-  const std::vector<int>& new_facets() const { return new_facets_; }
+  const std::vector<int>& new_facets() const { return facets_.newest(); }
 
   /// Whether a cell has a vertex of the box: its circumcenter lies outside of the domain.
   static bool is_at_box(Cell_handle c)
@@ -477,14 +436,14 @@ private:
   void classify()
   {
     classifier_.classify(new_cells_);
-    record_facets();
+    facets_.add(classifier_.facets(), update_number_);
     ++update_number_;
     new_cells_.clear();
   }
 
   void declassify(Cell_handle c)
   {
-    for (int i = 0; i < 4; ++i) forget_facet(c, i);
+    facets_.remove(c);
     c->set_classified(false);
   }
 
@@ -530,10 +489,8 @@ private:
     insert_box();
     creases_are_stale_ = true;
     facets_.clear();
-    free_facets_.clear();
-    facets_of_patch_.assign(facets_of_patch_.size(), 0);
     Cell_handle hint;
-    for (const std::size_t i : sorted_for_insertion(points)) {
+    for (const std::size_t i : insertion_order_3<Kernel>(points)) {
       const Vertex_handle v = tr_->insert(points[i], hint);
       v->set_location(locations[i]);
       v->set_id(static_cast<int>(i));
@@ -543,94 +500,14 @@ private:
     return tr_->number_of_vertices() == points.size() + 8;
   }
 
-  using Points = typename CGAL::Pointer_property_map<Point>::const_type;
-  using Sort_traits = CGAL::Spatial_sort_traits_adapter_3<Kernel, Points>;
-
-  static std::vector<std::size_t> numbers(std::size_t n)
-  {
-    std::vector<std::size_t> result(n);
-    for (std::size_t i = 0; i < n; ++i) result[i] = i;
-    return result;
-  }
-
-  /// Indices of points along a space-filling curve.
-  static std::vector<std::size_t> sorted_along_curve(const std::vector<Point>& points)
-  {
-    std::vector<std::size_t> order = numbers(points.size());
-    CGAL::hilbert_sort(order.begin(), order.end(), Sort_traits(CGAL::make_property_map(points)));
-    return order;
-  }
-
-  /// The same in rounds, for insertion.
-  static std::vector<std::size_t> sorted_for_insertion(const std::vector<Point>& points)
-  {
-    std::vector<std::size_t> order = numbers(points.size());
-    CGAL::spatial_sort(order.begin(), order.end(), Sort_traits(CGAL::make_property_map(points)));
-    return order;
-  }
-
-  /// All cells by the first of their vertices in the spatial order, those with none of them first. Numbers them so.
-  std::vector<Cell_handle> cells_in_spatial_order()
-  {
-    std::vector<std::size_t> rank(vertices_.size()), first(vertices_.size() + 2, 0);
-    const std::vector<std::size_t>& order = spatial_order();
-    for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = k + 1;
-    const auto key = [&](Cell_handle c) {
-      std::size_t least = vertices_.size() + 1;
-      for (int i = 0; i < 4; ++i)
-        if (c->vertex(i)->id() >= 0) least = (std::min)(least, rank[static_cast<std::size_t>(c->vertex(i)->id())]);
-      return least > vertices_.size() ? 0 : least;
-    };
-    for (const Cell_handle c : tr_->all_cell_handles()) ++first[key(c) + 1];
-    for (std::size_t k = 1; k < first.size(); ++k) first[k] += first[k - 1];
-    std::vector<Cell_handle> cells(first.back());
-    for (const Cell_handle c : tr_->all_cell_handles()) {
-      const std::size_t at = first[key(c)]++;
-      c->set_id(static_cast<int>(at));
-      cells[at] = c;
-    }
-    return cells;
-  }
-
   void touch(Vertex_handle v)
   {
     if (v->id() >= 0) touched_[static_cast<std::size_t>(v->id())] = update_number_;
   }
 
-  void forget_facet(Cell_handle c, int i)
+  void touch_vertices_of(Cell_handle c)
   {
-    const int record = c->facet_record(i);
-    if (record < 0) return;
-    const Cell_handle n = c->neighbor(i);
-    n->set_facet_record(n->index(c), -1);
-    c->set_facet_record(i, -1);
-    Restricted_facet& f = facets_[static_cast<std::size_t>(record)];
-    f.cell = Cell_handle();
-    --facets_of_patch_[static_cast<std::size_t>(f.patch)];
-    free_facets_.push_back(record);
-  }
-
-  void record_facets()
-  {
-    new_facets_.clear();
-    for (const Restricted_facet& f : classifier_.facets()) {
-      int record = static_cast<int>(facets_.size());
-      if (free_facets_.empty()) {
-        facets_.push_back(f);
-      } else {
-        record = free_facets_.back();
-        free_facets_.pop_back();
-        facets_[static_cast<std::size_t>(record)] = f;
-      }
-      facets_[static_cast<std::size_t>(record)].version = update_number_;
-      new_facets_.push_back(record);
-      const auto patch = static_cast<std::size_t>(f.patch);
-      if (patch >= facets_of_patch_.size()) facets_of_patch_.resize(patch + 1, 0); // found only now
-      ++facets_of_patch_[patch];
-      const Cell_handle c = f.cell, n = c->neighbor(f.index);
-      c->set_facet_record(f.index, record);
-      n->set_facet_record(n->index(c), record);
-    }
+    for (int i = 0; i < 4; ++i) touch(c->vertex(i));
   }
 
   const Oracle* oracle_;
@@ -638,6 +515,7 @@ private:
   Cell_classifier_3<Triangulation, Oracle> classifier_;
   std::unique_ptr<Triangulation> tr_; ///< at a fixed place, so that handles survive moves of this object
   Crease_tracer_3<Triangulation> tracer_;
+  Facet_records_3<Triangulation> facets_;
   std::vector<Vertex_handle> vertices_;
   std::vector<std::size_t> spatial_order_; ///< of the vertices at some time
   std::vector<char> fixed_;                ///< by vertex, those at the end may be missing: see `is_fixed()`
@@ -646,10 +524,8 @@ private:
   int batches_ = 0;
   bool creases_are_stale_ = true;      ///< single insertions don't follow them at once
   std::vector<Cell_handle> new_cells_; ///< not classified yet
-  std::vector<Cell_handle>
-      filling_left_; ///< cells that filled the place of the vertex put back last and are there still
-  std::vector<Restricted_facet> facets_;
-  std::vector<int> free_facets_, new_facets_, facets_of_patch_;
+  /// Cells that filled the place of the vertex put back last and are there still.
+  std::vector<Cell_handle> filling_left_;
 };
 
 /// Calls `visit(facet)` for each restricted facet at a vertex, once; `visit` mustn't come back here. Linear in the

@@ -143,7 +143,6 @@ public:
   /// The second half; does nothing if the first was stopped.
   void optimise()
   {
-    if (goes_on_) mesh_.sort_in_memory();
     goes_on_ = goes_on_ && coarsen_and_smooth();
     begin_stage("perturbation", Stage::polishing);
     if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
@@ -333,6 +332,8 @@ private:
   bool coarsen_and_smooth()
   {
     if (!options_.coarsen && options_.smoothing_sweeps == 0) return true;
+    begin_stage("sorting in memory", Stage::polishing);
+    mesh_.sort_in_memory();
     report_.refined_smallest_dihedral = smallest_dihedral();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     return !initial_ || refine_to_final_shapes();

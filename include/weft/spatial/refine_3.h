@@ -13,15 +13,13 @@
 #include <weft/spatial/crease_steiner_point_3.h>
 #include <weft/spatial/measure_badness_3.h>
 #include <weft/spatial/Restricted_delaunay_3.h>
+#include <weft/spatial/spatial_order_3.h>
 #include <weft/spatial/Steiner_chooser_3.h>
 #include <weft/spatial/topological_disk_3.h>
 
 #include <CGAL/centroid.h>
-#include <CGAL/hilbert_sort.h>
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
-#include <CGAL/property_map.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
@@ -111,9 +109,9 @@ public:
   int settle()
   {
     for (const Bad_facet& f : bad_facets_)
-      if (is_alive(f)) mesh_.set_changed(f.record);
-    for (const auto& [record, serial] : unseen_)
-      if (serials_[static_cast<std::size_t>(record)] == serial) mesh_.set_changed(record);
+      if (facet(f.id)) mesh_.set_changed(f.id.record);
+    for (const Facet_id& id : unseen_)
+      if (facet(id)) mesh_.set_changed(id.record);
     for (std::size_t i = 0; i < undecided_.size(); ++i)
       if (undecided_[i]) mesh_.set_changed(mesh_.vertices()[i]);
     return mesh_.version();
@@ -129,13 +127,16 @@ private:
     double ratio;
     bool is_stuck; ///< no Steiner point is possible
   };
+  struct Facet_id
+  {
+    int record, version; ///< records are used again
+  };
   struct Bad_facet
   {
-    int record;
+    Facet_id id;
     double ratio;
-    unsigned serial; ///< of the facet, since records are used again
-    bool is_free;    ///< only sizes and distances are at stake
-    bool is_needed;  ///< see `is_left()`
+    bool is_free;   ///< only sizes and distances are at stake
+    bool is_needed; ///< see `is_left()`
     bool is_stuck;
   };
   enum class Choice
@@ -171,23 +172,24 @@ private:
   void add_facet(int record, int settled = 0)
   {
     const auto r = static_cast<std::size_t>(record);
-    if (r >= serials_.size()) serials_.resize(r + 1, 0);
-    ++serials_[r];
-    if (is_mixed_up(mesh_.facets()[r])) mixed_up_.push_back({record, serials_[r]});
+    const Restricted_facet& f = mesh_.facets()[r];
+    const Facet_id id{record, f.version};
+    if (is_mixed_up(f)) mixed_up_.push_back(id);
     chooser_.set_bad_facet(r, false);
-    if (mesh_.facets()[r].version < settled) return;
-    unseen_.push_back({record, serials_[r]});
-    const Badness_3 badness = measure_.facet(mesh_.facets()[r]);
+    if (f.version < settled) return;
+    unseen_.push_back(id);
+    const Badness_3 badness = measure_.facet(f);
     chooser_.set_bad_facet(r, badness.is_bad());
     if (badness.is_bad())
-      bad_facets_.push_back({record, badness.ratio, serials_[r], (badness.reasons & (bad_topology | bad_disk)) == 0,
-                             is_needed(badness.reasons, mesh_.facets()[r].crossings > 1), false});
+      bad_facets_.push_back({id, badness.ratio, (badness.reasons & (bad_topology | bad_disk)) == 0,
+                             is_needed(badness.reasons, f.crossings > 1), false});
   }
 
-  bool is_alive(const Bad_facet& f) const
+  /// Null if it is gone.
+  const Restricted_facet* facet(const Facet_id& id) const
   {
-    const auto r = static_cast<std::size_t>(f.record);
-    return mesh_.facets()[r].cell != Cell_handle() && serials_[r] == f.serial;
+    const Restricted_facet& f = mesh_.facets()[static_cast<std::size_t>(id.record)];
+    return f.cell != Cell_handle() && f.version == id.version ? &f : nullptr;
   }
 
   // ---- choosing
@@ -208,7 +210,7 @@ private:
   std::size_t choose_facets()
   {
     bad_facets_.erase(
-        std::remove_if(bad_facets_.begin(), bad_facets_.end(), [this](const Bad_facet& f) { return !is_alive(f); }),
+        std::remove_if(bad_facets_.begin(), bad_facets_.end(), [this](const Bad_facet& f) { return !facet(f.id); }),
         bad_facets_.end());
     const auto is_stuck = [](const Bad_facet& f) { return f.is_stuck; };
     if (std::all_of(bad_facets_.begin(), bad_facets_.end(), is_stuck)) look_again();
@@ -216,9 +218,7 @@ private:
     std::stable_sort(bad_facets_.begin(), bad_facets_.end(),
                      [](const Bad_facet& a, const Bad_facet& b) { return a.ratio > b.ratio; });
     for (Bad_facet& f : bad_facets_)
-      if (!f.is_stuck)
-        f.is_stuck =
-            choose(mesh_.facets()[static_cast<std::size_t>(f.record)], f.is_free, f.is_needed) == Choice::impossible;
+      if (!f.is_stuck) f.is_stuck = choose(*facet(f.id), f.is_free, f.is_needed) == Choice::impossible;
     return bad_facets_.size();
   }
 
@@ -228,14 +228,9 @@ private:
   void look_again()
   {
     if constexpr (!Restricted::Oracle::labels_first) {
-      for (const auto& [record, serial] : unseen_) {
-        const auto r = static_cast<std::size_t>(record);
-        if (serials_[r] != serial || mesh_.facets()[r].cell == Cell_handle()) continue; // it is gone
-        const Restricted_facet& f = mesh_.facets()[r];
-        if (is_far(f))
-          bad_facets_.push_back(
-              {record, Measure::just_bad, serial, true, is_needed(bad_approximation, f.crossings > 1), false});
-      }
+      for (const Facet_id& id : unseen_)
+        if (const Restricted_facet* f = facet(id); f && is_far(*f))
+          bad_facets_.push_back({id, Measure::just_bad, true, is_needed(bad_approximation, f->crossings > 1), false});
     }
     unseen_.clear();
   }
@@ -405,11 +400,9 @@ private:
   void choose_mirror_images()
   {
     std::size_t n = 0;
-    for (const auto& [record, serial] : mixed_up_) {
-      const auto r = static_cast<std::size_t>(record);
-      if (serials_[r] != serial || mesh_.facets()[r].cell == Cell_handle()) continue; // it is gone
-      if (choose_mirror_image(mesh_.facets()[r]) != Choice::impossible) mixed_up_[n++] = {record, serial};
-    }
+    for (const Facet_id& id : mixed_up_)
+      if (const Restricted_facet* f = facet(id); f && choose_mirror_image(*f) != Choice::impossible)
+        mixed_up_[n++] = id;
     mixed_up_.resize(n);
   }
 
@@ -593,16 +586,9 @@ private:
   /// Inserts along a space-filling curve: cells made one after the other stand side by side in memory.
   void insert_chosen()
   {
-    order_.clear();
-    points_.clear();
-    for (std::size_t k = 0; k < used_; ++k) {
-      order_.push_back(k);
-      points_.push_back(chosen_[k].zone.point);
-    }
-    using Points = typename CGAL::Pointer_property_map<Point>::type;
-    CGAL::hilbert_sort(order_.begin(), order_.end(),
-                       CGAL::Spatial_sort_traits_adapter_3<Kernel, Points>(Points(points_.data())));
-    for (const std::size_t k : order_) {
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < used_; ++k) points.push_back(chosen_[k].zone.point);
+    for (const std::size_t k : order_along_curve_3<Kernel>(points)) {
       const Chosen& chosen = chosen_[k];
       for (const Cell_handle c : chosen.zone.cells) {
         if (c->bad_index() >= 0) bad_cells_[static_cast<std::size_t>(c->bad_index())].cell = Cell_handle();
@@ -653,17 +639,13 @@ private:
   std::mt19937 random_;
   std::vector<Bad_cell> bad_cells_;
   std::vector<Bad_facet> bad_facets_;
-  std::vector<std::pair<int, unsigned>>
-      mixed_up_; ///< facets, by record and serial, that have a vertex across an acute edge
-  std::vector<std::pair<int, unsigned>> unseen_; ///< facets that `look_again()` has yet to see, likewise
+  std::vector<Facet_id> mixed_up_; ///< facets that have a vertex across an acute edge
+  std::vector<Facet_id> unseen_;   ///< facets that `look_again()` has yet to see
   std::vector<std::pair<double, const Crease_edge*>> bad_edges_;
-  std::vector<unsigned> serials_; ///< by facet record, how often it was made
-  std::vector<char> undecided_;   ///< by vertex, whether its topological disk has to be looked at
+  std::vector<char> undecided_; ///< by vertex, whether its topological disk has to be looked at
   std::vector<int> pool_, container_;
   std::vector<Cell_handle> cells_;
   std::vector<Chosen> chosen_;
-  std::vector<std::size_t> order_;
-  std::vector<Point> points_;
   std::size_t used_ = 0, room_ = 0;
   double acute_floor_ = 0.125; ///< part of the size down to which elements beside acute edges are refined
   std::size_t least_left_ = std::size_t(1) << 40;  ///< smallest value of the following before a lowering

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The restricted facets of a triangulation that changes, in records with numbers that cells know them by.
+
+#ifndef WEFT_SPATIAL_FACET_RECORDS_3_H
+#define WEFT_SPATIAL_FACET_RECORDS_3_H
+
+#include <weft/spatial/Cell_classifier_3.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace weft {
+
+/// Records are used again: a facet is known by its record's number and its version together.
+/// \tparam Triangulation a Mesh_triangulation_3.
+template <class Triangulation>
+class Facet_records_3
+{
+public:
+  using Cell_handle = typename Triangulation::Cell_handle;
+  using Restricted_facet = Restricted_facet_3<Triangulation>;
+
+  /// \param patches how many are known; others may turn up.
+  explicit Facet_records_3(std::size_t patches) : of_patch_(patches, 0) {}
+
+  /// All records; those with a null cell are unused.
+  const std::vector<Restricted_facet>& all() const { return records_; }
+
+  /// The facet opposite to vertex i of c, or null.
+  const Restricted_facet* find(Cell_handle c, int i) const
+  {
+    const int record = c->facet_record(i);
+    return record < 0 ? nullptr : &records_[static_cast<std::size_t>(record)];
+  }
+
+  /// How many there are whose Steiner point lies on a patch.
+  int number_on(int patch) const
+  {
+    const auto p = static_cast<std::size_t>(patch);
+    return p < of_patch_.size() ? of_patch_[p] : 0;
+  }
+
+  /// Numbers of the records made by the last call of `add()`.
+  const std::vector<int>& newest() const { return newest_; }
+
+  /// Gives facets records, free ones first.
+  void add(const std::vector<Restricted_facet>& facets, int version)
+  {
+    newest_.clear();
+    for (const Restricted_facet& f : facets) {
+      auto record = static_cast<int>(records_.size());
+      if (free_.empty()) {
+        records_.push_back(f);
+      } else {
+        record = free_.back();
+        free_.pop_back();
+        records_[static_cast<std::size_t>(record)] = f;
+      }
+      set_version(record, version);
+      newest_.push_back(record);
+      const auto patch = static_cast<std::size_t>(f.patch);
+      if (patch >= of_patch_.size()) of_patch_.resize(patch + 1, 0); // found only now
+      ++of_patch_[patch];
+      const Cell_handle c = f.cell, n = c->neighbor(f.index);
+      c->set_facet_record(f.index, record);
+      n->set_facet_record(n->index(c), record);
+    }
+  }
+
+  void set_version(int record, int version) { records_[static_cast<std::size_t>(record)].version = version; }
+
+  /// Forgets the facet opposite to vertex i of c, if there is one.
+  void remove(Cell_handle c, int i)
+  {
+    const int record = c->facet_record(i);
+    if (record < 0) return;
+    const Cell_handle n = c->neighbor(i);
+    n->set_facet_record(n->index(c), -1);
+    c->set_facet_record(i, -1);
+    Restricted_facet& f = records_[static_cast<std::size_t>(record)];
+    f.cell = Cell_handle();
+    --of_patch_[static_cast<std::size_t>(f.patch)];
+    free_.push_back(record);
+  }
+
+  /// The same for all facets of a cell.
+  void remove(Cell_handle c)
+  {
+    for (int i = 0; i < 4; ++i) remove(c, i);
+  }
+
+  /// Forgets all facets, when the cells are gone.
+  void clear()
+  {
+    records_.clear();
+    free_.clear();
+    of_patch_.assign(of_patch_.size(), 0);
+  }
+
+  /// When the triangulation was copied.
+  /// \param copies of the cells, by their ids.
+  void set_cells(const std::vector<Cell_handle>& copies)
+  {
+    for (Restricted_facet& f : records_)
+      if (f.cell != Cell_handle()) f.cell = copies[static_cast<std::size_t>(f.cell->id())];
+  }
+
+private:
+  std::vector<Restricted_facet> records_;
+  std::vector<int> free_, newest_, of_patch_;
+};
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_FACET_RECORDS_3_H
