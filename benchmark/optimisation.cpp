@@ -177,8 +177,8 @@ void print_sweeps(const std::string& input, const Sweep_costs& r)
 
 std::vector<std::string> perturb_head()
 {
-  return {"input", "before",   "combined", "random",   "s combined", "s random", "random / combined",
-          "±",     "by ∇R² %", "by ∇V %",  "random %", "insertions", "removals"};
+  return {"input", "before",   "to",      "combined", "random",     "s combined", "s random", "random / combined",
+          "±",     "by ∇R² %", "by ∇V %", "random %", "insertions", "removals"};
 }
 
 void print_perturbation(const Perturb_run& r)
@@ -189,10 +189,10 @@ void print_perturbation(const Perturb_run& r)
     return;
   }
   const double moves = std::max(1., c.by_radius + c.by_volume + c.by_chance);
-  std::cout << markdown_row({r.input, text(c.before, 1), text(c.after, 1), text(o.after, 1), seconds_text(c.seconds),
-                             seconds_text(o.seconds), text(r.ratio(), 2), text(r.standard_error(), 2),
-                             percent(c.by_radius / moves), percent(c.by_volume / moves), percent(c.by_chance / moves),
-                             count(c.insertions), count(c.removals)})
+  std::cout << markdown_row({r.input, text(c.before, 1), text(r.target, 0), text(c.after, 1), text(o.after, 1),
+                             seconds_text(c.seconds), seconds_text(o.seconds), text(r.ratio(), 2),
+                             text(r.standard_error(), 2), percent(c.by_radius / moves), percent(c.by_volume / moves),
+                             percent(c.by_chance / moves), count(c.insertions), count(c.removals)})
             << std::flush;
 }
 
@@ -315,10 +315,12 @@ public:
           });
     figures('c', sweep_figures(sweeps));
     std::vector<Perturb_run> perturbed;
-    table('d', "Combined perturbation against random alone, to 20°", perturb_head(), false,
+    table('d', "Combined perturbation against random alone", perturb_head(), false,
           [&](const Model& model, const Spatial_domain& domain) {
-            perturbed.push_back(perturb_run(domain, model.bounds(), a_.seconds()));
-            print_perturbation(perturbed.back());
+            for (const Perturb_run& run : perturb_runs(domain, model.bounds(), a_.seconds())) {
+              perturbed.push_back(run);
+              print_perturbation(run);
+            }
           });
     figures('d', perturb_figures(perturbed));
     std::vector<Best_row> best;

@@ -139,8 +139,8 @@ inline std::vector<Thesis_figure> perturb_figures(const std::vector<Perturb_run>
       asked("random perturbation's time against combined, to the same angle", "6 ×", Better::more, 1, 3, 2, " ×");
   for (const Perturb_run& r : runs) {
     if (r.combined.failure[0] || r.random.failure[0]) continue;
-    const bool reached = r.combined.after >= std::min(20., r.random.after);
-    faster.figure.add(r.input, reached ? r.random.seconds / r.combined.seconds : 0);
+    const bool reached = r.combined.after >= std::min(r.target, r.random.after);
+    faster.figure.add(r.input + " to " + text(r.target, 0) + "°", reached ? r.random.seconds / r.combined.seconds : 0);
   }
   return {faster};
 }

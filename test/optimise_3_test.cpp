@@ -470,6 +470,37 @@ TEST_CASE("a mesh sorted in memory is the same mesh")
   }
 }
 
+TEST_CASE("facets listed at vertices are those found by walking around them, until something changes")
+{
+  for (const Case& c : cases()) {
+    const Oracle oracle = oracle_of(c.surface);
+    auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), refinement());
+    const auto stars = [&mesh = mesh] {
+      std::vector<std::set<const Restricted::Restricted_facet*>> all;
+      for (const auto v : mesh.vertices()) {
+        all.emplace_back();
+        weft::for_each_facet_at(mesh, v, [&](const auto& f) { CHECK(all.back().insert(&f).second); });
+      }
+      return all;
+    };
+    CHECK_FALSE(mesh.has_facets_at_vertices());
+    const auto walked = stars();
+    mesh.list_facets_at_vertices();
+    CHECK(mesh.has_facets_at_vertices());
+    CHECK(stars() == walked);
+    const auto found = std::find_if(mesh.vertices().begin(), mesh.vertices().end(),
+                                    [](auto v) { return v->location().dimension == 2; });
+    REQUIRE(found != mesh.vertices().end());
+    const int id = (*found)->id();
+    mesh.leave_out(id, mesh.take_away(*found));
+    CHECK_FALSE(mesh.has_facets_at_vertices());
+    const auto changed = stars();
+    mesh.list_facets_at_vertices();
+    CHECK(stars() == changed);
+    CHECK(changed.size() == walked.size() - 1);
+  }
+}
+
 TEST_CASE("vertices that are sent to the same place don't end up in one")
 {
   const Oracle oracle = oracle_of(surfaces::cube());

@@ -216,6 +216,7 @@ private:
     const auto look = [&](const Element& e, const Grade& grade) {
       if (grade.is_bad()) visit(e, grade);
     };
+    if (part.facets.size() > mesh_.facets().size() / 10) mesh_.list_facets_at_vertices();
     for (const int record : part.facets)
       if (facet(record).cell != Cell_handle()) look(key(facet(record)), grade(facet(record)));
     for (const Cell_handle c : part.cells)

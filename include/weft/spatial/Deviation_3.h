@@ -16,6 +16,7 @@
 #include <boost/container_hash/hash.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -117,17 +118,18 @@ private:
     thread_local std::vector<const Facet*> around;
     around.clear();
     const auto look = [&](const Point& p) {
-      if (is_known(p, highest)) return;
+      Near_point& known = what_is_known(p);
+      if (known.bound <= highest) return;
       if (squared_distance(p, f) > highest) {
         if (around.empty())
           for (int i = 1; i <= 3; ++i) list_star(f.cell->vertex((f.index + i) & 3), around);
-        const double distance = is_within(p, highest, around) ? 0 : squared_distance_from_around(p, highest, f);
+        const double distance = is_within(p, highest, around) ? 0 : squared_distance_from_around(p, highest, f, known);
         if (distance > highest) {
           highest = distance;
           return;
         }
       }
-      know(p, highest);
+      known.bound = highest;
     };
     const double squared_reach = 1.2 * 1.2 * f.squared_radius; // tips stick out of surface Delaunay balls
     mesh_->oracle().visit_salient_points(f.steiner, squared_reach, f.patch, [&](const Point& p, bool) { look(p); });
@@ -144,21 +146,23 @@ private:
 
   // ---- what is known of salient points
 
-  /// The facets around look at the same points: to find a near facet once is enough, as long as the mesh stays.
+  /// The facets around look at the same points: to find a near facet once is enough, as long as the mesh stays, and so
+  /// is to have looked all around in vain.
   struct Near_point
   {
     Point point;
-    double bound = 0; ///< squared, within which a facet was found
     int version = -1; ///< of the mesh then
+    double bound;     ///< squared, within which a facet was found; else infinite
+    double around;    ///< squared distance from all facets around; negative unless measured
   };
 
-  bool is_known(const Point& p, double bound) const
+  /// Of a point: what was found in this version of the mesh.
+  Near_point& what_is_known(const Point& p) const
   {
-    const Near_point& known = known_[slot(p)];
-    return known.version == mesh_->version() && known.bound <= bound && known.point == p;
+    Near_point& known = known_[slot(p)];
+    if (known.version != mesh_->version() || known.point != p) known = {p, mesh_->version(), HUGE_VAL, -1};
+    return known;
   }
-
-  void know(const Point& p, double bound) const { known_[slot(p)] = {p, bound, mesh_->version()}; }
 
   std::size_t slot(const Point& p) const
   {
@@ -193,31 +197,44 @@ private:
   /// From a facet, those at the vertices of the cell around p and at those beside the vertex nearest to it; 0 if that
   /// isn't beyond a bound. With only those beside the facet, points on the other side of a thin sheet seem to be far
   /// from a mesh of it, and hide what gets farther than any was before.
-  double squared_distance_from_around(const Point& p, double bound, const Facet& f) const
+  double squared_distance_from_around(const Point& p, double bound, const Facet& f, Near_point& known) const
+  {
+    if (known.around < 0) {
+      const double around = squared_distance_from_around(p, bound, f.cell);
+      if (around <= bound) return 0;
+      known.around = around;
+    }
+    const double distance = (std::min)(known.around, squared_distance(p, f));
+    return distance > bound ? distance : 0;
+  }
+
+  /// The same without the facet; if that is within the bound, some facet's that is.
+  /// \param near where to look from.
+  double squared_distance_from_around(const Point& p, double bound, Cell_handle near) const
   {
     const auto& tr = mesh_->triangulation();
     thread_local std::vector<Vertex_handle> vertices;
     thread_local std::vector<const Facet*> star;
-    double nearest = squared_distance(p, f);
+    double nearest = HUGE_VAL;
     const auto look = [&](Vertex_handle v) {
       star.clear();
       list_star(v, star);
       for (const Facet* g : star) nearest = (std::min)(nearest, squared_distance(p, *g));
       return nearest <= bound;
     };
-    const Cell_handle c = tr.locate(p, f.cell);
+    const Cell_handle c = tr.locate(p, near);
     const auto squared = [&](int i) { return CGAL::to_double(CGAL::squared_distance(p, c->vertex(i)->point())); };
     int first = 0;
     for (int i = 1; i < 4; ++i)
       if (squared(i) < squared(first)) first = i;
     for (int i = 0; i < 4; ++i)
-      if (look(c->vertex((first + i) & 3))) return 0;
+      if (look(c->vertex((first + i) & 3))) return nearest;
     const Vertex_handle v = tr.nearest_vertex(p, c);
-    if (!c->has_vertex(v) && look(v)) return 0;
+    if (!c->has_vertex(v) && look(v)) return nearest;
     vertices.clear();
     tr.finite_adjacent_vertices(v, std::back_inserter(vertices));
     for (const Vertex_handle w : vertices)
-      if (!c->has_vertex(w) && look(w)) return 0;
+      if (!c->has_vertex(w) && look(w)) return nearest;
     return nearest;
   }
 

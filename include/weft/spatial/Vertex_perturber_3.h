@@ -126,7 +126,7 @@ public:
   {
     const Point center =
         CGAL::centroid(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
-    is_move_ = false;
+    is_move_ = is_guided_ = false;
     filling_.clear();
     judge_.set_filling(filling_);
     near_ = c;
@@ -306,7 +306,8 @@ private:
   {
     places_.clear();
     bool done = false;
-    if (!at_random && options_.directions == Perturb_directions_3::combined)
+    is_guided_ = !at_random && options_.directions == Perturb_directions_3::combined;
+    if (is_guided_)
       for (const std::size_t kind : rates_.better_than(by_chance)) {
         done = try_along(origin, kind);
         if (done) break;
@@ -323,7 +324,9 @@ private:
     return try_at(origin + (steps[kind].length * reach_ / length) * direction, kind) <= enough_;
   }
 
-  /// Random places around a center, every other one closer and closer around the best so far, until one is good.
+  /// Random places around a center, every other one closer and closer around the best so far, until one is good. The
+  /// first for a vertex of slivers lie where their volumes shrink, since a sliver that is flattened further flips away:
+  /// places where they grow better a star more often, but by less.
   /// \param reach in parts of the shortest edge.
   void search(const Point& center, double reach, int trials)
   {
@@ -338,7 +341,8 @@ private:
     for (int k = 0; k < trials; ++k) {
       const bool near_best = k % 2 == 1 && best < limit_;
       const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
-      const Vector v(x, y, z);
+      Vector v(x, y, z);
+      if (is_guided_ && k < guided_trials && !near_best && v * by_volume_ < 0) v = -v;
       const double length = std::sqrt(CGAL::to_double(v.squared_length()));
       if (!(length > 0)) continue;
       const double step = (near_best ? radius : reach) * (0.5 + 0.5 * random()) * reach_ / length;
@@ -379,6 +383,8 @@ private:
     if (places_.size() > most_places) places_.resize(most_places);
   }
 
+  /// Random trials that directions play a part in; of 6, 10 and 24, 6 are best on all of elephant, dino, homer, anchor.
+  static constexpr int guided_trials = 6;
   static constexpr std::size_t most_places = 3;      ///< of the best, how many are tried for good
   static constexpr double cost_of_putting_back = 20; ///< in trials, with the guard's questions
 
@@ -396,6 +402,7 @@ private:
   double enough_ = 0;              ///< what ends the search
   double most_ = 0;                ///< what it must not make, whatever it unmakes
   bool is_move_ = true;            ///< or an insertion, which gradients have no part in
+  bool is_guided_ = false;         ///< whether directions play a part in a move
   Vector by_radius_, by_volume_;   ///< directions
   Cell_handle near_;               ///< a cell near it
   std::vector<Cell_handle> cells_; ///< its star
