@@ -43,7 +43,7 @@ def summary_table(lines):
 
 
 def each(meshers, inputs, mesh_once, repeat_times, quick, say):
-    """Every mesher on every input; then, by turns, again for medians."""
+    """Every mesher on every input; then, by turns, again for medians. Yields all rows so far after each input."""
     rows = []
     for given in inputs:
         results = []
@@ -61,13 +61,14 @@ def each(meshers, inputs, mesh_once, repeat_times, quick, say):
                 result["seconds"] = process.median(times)
                 result["runs"] = len(times)
             rows.append(result)
-    return rows
+        yield rows
 
 
 # ---- In the plane
 
 
 def planar(programs, inputs, triangles, work, limit, quick, say):
+    """Yields what there is after each input, as data and text."""
     meshers, missing = peers_2d.meshers(programs)
     out = work / "planar.mesh"
 
@@ -82,15 +83,16 @@ def planar(programs, inputs, triangles, work, limit, quick, say):
             return outcome.json()[0]
         return measure
 
-    rows = each(meshers, inputs,
-                lambda m, i: peers_2d.mesh_once(m, i, size(i), out, limit, measure_of(i)),
-                lambda m, i, r: peers_2d.repeat_times(m, i, r, out, limit, 1), quick, say)
-    lines = summary(rows, "weft", "smallest_angle", lambda r: max(r["longest_ratio"], r["longest_edge_ratio"]) <= 1 + 1e-9)
-    text = summary_table(lines) + tables.table(
-        ["input", "mesher", "Steiner points", "triangles / m_Δ", "angles", "longest edge / size", "Delaunay", "user s",
-         "peak MB", "note"],
-        [planar_row(r) for r in rows])
-    return {"rows": rows, "summary": lines, "missing": missing, "triangles_asked": triangles}, text
+    for rows in each(meshers, inputs,
+                     lambda m, i: peers_2d.mesh_once(m, i, size(i), out, limit, measure_of(i)),
+                     lambda m, i, r: peers_2d.repeat_times(m, i, r, out, limit, 1), quick, say):
+        lines = summary(rows, "weft", "smallest_angle",
+                        lambda r: max(r["longest_ratio"], r["longest_edge_ratio"]) <= 1 + 1e-9)
+        text = summary_table(lines) + tables.table(
+            ["input", "mesher", "Steiner points", "triangles / m_Δ", "angles", "longest edge / size", "Delaunay", "user s",
+             "peak MB", "note"],
+            [planar_row(r) for r in rows])
+        yield {"rows": rows, "summary": lines, "missing": missing, "triangles_asked": triangles}, text
 
 
 def planar_row(r):
@@ -127,13 +129,13 @@ def measure_3(programs, surface):
 
 
 def spatial(programs, inputs, work, limit, seconds, quick, say):
-    """Each input has `bounds`."""
+    """Each input has `bounds`. Yields what there is after each of them, as data and text."""
     meshers, missing = peers_3d.meshers(programs, seconds)
     out = work / "spatial"
-    rows = each(meshers, inputs,
-                lambda m, i: peers_3d.mesh_once(m, i, i.bounds, out, limit, measure_3(programs, i.off)),
-                lambda m, i, r: peers_3d.repeat_times(m, i, i.bounds, r, out, limit, 1), quick, say)
-    return spatial_report(rows, inputs, missing)
+    for rows in each(meshers, inputs,
+                     lambda m, i: peers_3d.mesh_once(m, i, i.bounds, out, limit, measure_3(programs, i.off)),
+                     lambda m, i, r: peers_3d.repeat_times(m, i, i.bounds, r, out, limit, 1), quick, say):
+        yield spatial_report(rows, inputs, missing)
 
 
 def spatial_report(rows, inputs, missing):
@@ -172,7 +174,8 @@ def spatial_row(r, bounds):
 
 
 def boundary(programs, inputs, Given, work, limit, quick, say):
-    """The inside of the boundary of weft's mesh by the others, as in fig. 3.17 of the thesis."""
+    """The inside of the boundary of weft's mesh by the others, as in fig. 3.17 of the thesis. Yields what there is after
+    each input, as data and text."""
     meshers, missing = peers_3d.meshers(programs, 0, boundary=True)
     rows = []
     for given in inputs:
@@ -190,9 +193,11 @@ def boundary(programs, inputs, Given, work, limit, quick, say):
                        longest_ratio=own["longest_edge"] / given.bounds.size, stopped_early=outcome.status == 2)
         rows.append({**own, "input": given.name, "mesher": "weft"})
         if "failure" in own:
+            yield spatial_report(rows, inputs, missing)
             continue
         inside = Given(name=given.name, off=off, stl=stl, sharp_angle=0, bounds=given.bounds)
-        rows += each(meshers, [inside],
-                     lambda m, i: peers_3d.mesh_once(m, i, i.bounds, work / "inside", limit, measure),
-                     lambda m, i, r: peers_3d.repeat_times(m, i, i.bounds, r, work / "inside", limit, 1), quick, say)
-    return spatial_report(rows, inputs, missing)
+        for found in each(meshers, [inside],
+                          lambda m, i: peers_3d.mesh_once(m, i, i.bounds, work / "inside", limit, measure),
+                          lambda m, i, r: peers_3d.repeat_times(m, i, i.bounds, r, work / "inside", limit, 1), quick, say):
+            rows += found
+        yield spatial_report(rows, inputs, missing)
