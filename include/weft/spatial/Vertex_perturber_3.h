@@ -316,15 +316,14 @@ private:
   // ---- places
 
   /// As in Alg. 7 the gradients have their turn before chance, but only those steps that have mended more for their
-  /// cost than chance has, the best first: near creases and late in a run gradients rarely help. To 20
-  /// degrees random directions alone take 1.06 times as long on elephant, 1.03 on dino and 1.00 on anchor (sums of
-  /// twenty seeds, standard errors 0.02, 0.05, 0.14). Random places on the side where volumes grow better a star more
-  /// often, but runs that draw those alone take 0.9 to 1.2 times as long.
+  /// cost than chance has, the best first: late in a run gradients rarely help. On creases there are but two ways to
+  /// go; with directions there, anchor takes 1.15 times as long to 17 degrees, 1.05 times to 20. What random directions
+  /// alone take longer is in doc/measured_3d.md.
   void find_places(const Point& origin, int trials, bool at_random)
   {
     places_.clear();
     bool done = false;
-    is_guided_ = !at_random && options_.directions == Perturb_directions_3::combined;
+    is_guided_ = !at_random && location_.dimension > 1 && options_.directions == Perturb_directions_3::combined;
     if (is_guided_)
       for (const std::size_t kind : rates_.better_than(by_chance)) {
         done = try_along(origin, kind);
