@@ -105,14 +105,15 @@ def by_category(filename, title, vertical_title, categories, series):
     parts = []
     frame(y, vertical_title, parts)
     for i, category in enumerate(categories):
-        parts.append(text(LEFT + (i + 0.5) * width, TOP + HEIGHT + 20, category, "middle"))
+        row = i % 2 if len(categories) > 8 else 0  # names side by side would overlap
+        parts.append(text(LEFT + (i + 0.5) * width, TOP + HEIGHT + 20 + 18 * row, category, "middle"))
         for k, values in enumerate(series.values()):
             if category not in values:
                 continue
             x = LEFT + (i + 0.15 + 0.7 * (k + 0.5) / len(series)) * width
             colour = COLOURS[k % len(COLOURS)]
-            parts += [line(x, y(0), x, y(values[category]), colour, 5),
+            parts += [line(x, y(0), x, y(values[category]), colour, min(5, 0.5 * width / len(series))),
                       f'<circle cx="{x:.1f}" cy="{y(values[category]):.1f}" r="3.5" fill="{colour}"/>']
     legend(series, parts)
-    filename.write_text(document(title, 940, max(TOP + HEIGHT + 40, TOP + 40 + 22 * len(series)), parts))
+    filename.write_text(document(title, 940, max(TOP + HEIGHT + 58, TOP + 40 + 22 * len(series)), parts))
     return True
