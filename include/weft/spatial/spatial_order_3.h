@@ -27,6 +27,14 @@ using Indexed_points_3 =
     CGAL::Spatial_sort_traits_adapter_3<Kernel,
                                         typename CGAL::Pointer_property_map<typename Kernel::Point_3>::const_type>;
 
+template <class Kernel>
+Indexed_points_3<Kernel> indexed(const std::vector<typename Kernel::Point_3>& points)
+{
+  // CGAL::make_property_map() takes the address of the first one, which needn't exist.
+  return Indexed_points_3<Kernel>(
+      typename CGAL::Pointer_property_map<typename Kernel::Point_3>::const_type(points.data()));
+}
+
 inline std::vector<std::size_t> first_numbers(std::size_t n)
 {
   std::vector<std::size_t> numbers(n);
@@ -41,7 +49,7 @@ template <class Kernel>
 std::vector<std::size_t> order_along_curve_3(const std::vector<typename Kernel::Point_3>& points)
 {
   std::vector<std::size_t> order = internal::first_numbers(points.size());
-  CGAL::hilbert_sort(order.begin(), order.end(), internal::Indexed_points_3<Kernel>(CGAL::make_property_map(points)));
+  CGAL::hilbert_sort(order.begin(), order.end(), internal::indexed<Kernel>(points));
   return order;
 }
 
@@ -51,7 +59,7 @@ template <class Kernel>
 std::vector<std::size_t> insertion_order_3(const std::vector<typename Kernel::Point_3>& points)
 {
   std::vector<std::size_t> order = internal::first_numbers(points.size());
-  CGAL::spatial_sort(order.begin(), order.end(), internal::Indexed_points_3<Kernel>(CGAL::make_property_map(points)));
+  CGAL::spatial_sort(order.begin(), order.end(), internal::indexed<Kernel>(points));
   return order;
 }
 
