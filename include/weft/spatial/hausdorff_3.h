@@ -13,6 +13,7 @@
 #include <weft/spatial/Tetrahedral_mesh_3.h>
 
 #include <CGAL/centroid.h>
+#include <CGAL/Kernel/global_functions.h>
 
 #include <algorithm>
 #include <array>
@@ -74,7 +75,8 @@ struct Sampled_distance
   double largest = 0, mean = 0;
 };
 
-/// Distances of samples of some triangles to a tree: corners and centroids of all, and points uniform by area.
+/// Distances of samples of some triangles to a tree: corners, centroids and middles of sides of all, and points uniform
+/// by area.
 template <class K>
 Sampled_distance sample_distance(const std::vector<typename K::Triangle_3>& from, const Triangle_tree_3<K>& to,
                                  std::size_t samples, unsigned seed)
@@ -86,7 +88,10 @@ Sampled_distance sample_distance(const std::vector<typename K::Triangle_3>& from
     return d;
   };
   for (const auto& triangle : from) {
-    for (int i = 0; i < 3; ++i) measure(triangle[i]);
+    for (int i = 0; i < 3; ++i) {
+      measure(triangle[i]);
+      measure(CGAL::midpoint(triangle[i], triangle[i + 1])); // at a fold between facets, say
+    }
     measure(CGAL::centroid(triangle));
   }
   const std::vector<double> areas = cumulated_areas(from);
@@ -107,7 +112,7 @@ Sampled_distance sample_distance(const std::vector<typename K::Triangle_3>& from
 /// Measures the distances between the boundary facets of a mesh and a surface. The true Hausdorff distance is at least
 /// what is found. O((samples + triangles) log triangles) time.
 /// \param points,triangles the surface, for instance those of a Piecewise_smooth_complex_3.
-/// \param samples points on each surface beside the corners and centroids of all triangles.
+/// \param samples points on each surface beside the corners, centroids and middles of sides of all triangles.
 /// \throws Option_error if one of the surfaces has no triangle.
 template <class K>
 Hausdorff_3 hausdorff_3(const Tetrahedral_mesh_3<K>& mesh, const std::vector<typename K::Point_3>& points,
