@@ -112,8 +112,8 @@ public:
 
   // ---- around vertices
 
-  /// Lists the facets at every vertex, which holds until facets change. Walking around a vertex takes twenty times as
-  /// long as looking its facets up here, so that this pays where a tenth of the vertices are looked at. Linear.
+  /// Lists the facets at every vertex, which holds until facets change. It pays where many vertices are looked at: no
+  /// cells have to be walked through then. Linear.
   /// \param vertices how many there are.
   void list_stars(std::size_t vertices)
   {

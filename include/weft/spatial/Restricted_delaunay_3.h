@@ -124,7 +124,7 @@ public:
   /// How many restricted facets have their Steiner point on a patch.
   int number_of_facets(int patch) const { return facets_.number_on(patch); }
   /// Lists the restricted facets at every vertex, so that `for_each_facet_at()` is fast until something changes. It
-  /// pays where a tenth of the vertices are looked at. Not while other threads read this mesh. Linear.
+  /// pays where many vertices are looked at. Not while other threads read this mesh. Linear.
   void list_facets_at_vertices() const { facets_.list_stars(vertices_.size()); }
   /// Whether that has been done since the last change.
   bool has_facets_at_vertices() const { return facets_.has_stars(); }
