@@ -152,9 +152,25 @@ void print_smoothers(const Smoother_run& r)
 
 std::vector<std::string> sweep_head()
 {
-  return {"input",    "vertices",    "sweep",    "ms",      "Delaunay ms", "ratio",
-          "sizing %", "positions %", "moving %", "flips %", "anew %",      "labels %",
-          "in place", "stayed",      "anew",     "flips",   "regions",     "CGAL's ODT, ratio"};
+  return {"input",
+          "vertices",
+          "sweep",
+          "ms",
+          "Delaunay ms",
+          "ratio",
+          "sizing %",
+          "positions %",
+          "moving %",
+          "flips %",
+          "anew %",
+          "labels %",
+          "in place",
+          "stayed",
+          "anew",
+          "flips",
+          "regions",
+          "sorting before, ratio",
+          "CGAL's ODT, ratio"};
 }
 
 void print_sweeps(const std::string& input, const Sweep_costs& r)
@@ -169,7 +185,7 @@ void print_sweeps(const std::string& input, const Sweep_costs& r)
                                percent(m->sizing), percent(m->positions), percent(m->moving), percent(m->flips),
                                percent(m->rebuilding), percent(m->labels), count(m->in_place), count(m->stayed),
                                count(m->rebuilt), count(m->flipped), count(m->regions),
-                               m == &r.first ? text(r.cgal, 1) : ""})
+                               m == &r.first ? text(r.ordering, 2) : "", m == &r.first ? text(r.cgal, 1) : ""})
               << std::flush;
 }
 

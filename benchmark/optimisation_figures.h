@@ -132,15 +132,16 @@ inline std::vector<Thesis_figure> sweep_figures(const std::vector<std::pair<std:
   return {first, late};
 }
 
-/// A random perturbation that doesn't reach the angle counts with the time it had: a lower bound.
+/// A random perturbation that doesn't reach the angle counts with the time it had: a lower bound. Where neither does,
+/// there is no such time.
 inline std::vector<Thesis_figure> perturb_figures(const std::vector<Perturb_run>& runs)
 {
   Thesis_figure faster =
       asked("random perturbation's time against combined, to the same angle", "6 ×", Better::more, 1, 3, 2, " ×");
   for (const Perturb_run& r : runs) {
     if (r.combined.failure[0] || r.random.failure[0]) continue;
-    const bool reached = r.combined.after >= std::min(r.target, r.random.after);
-    faster.figure.add(r.input + " to " + text(r.target, 0) + "°", reached ? r.random.seconds / r.combined.seconds : 0);
+    const bool combined = r.combined.after >= r.target, random = r.random.after >= r.target;
+    if (combined || random) faster.figure.add(r.input + " to " + text(r.target, 0) + "°", combined ? r.ratio() : 0);
   }
   return {faster};
 }

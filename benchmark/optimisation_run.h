@@ -199,7 +199,8 @@ struct Sweep_cost
 struct Sweep_costs
 {
   double vertices = -1;
-  Sweep_cost first, late; ///< on the refined mesh; after 30 sweeps of the same run
+  double ordering = -1;   ///< what whole runs do once before they optimise, sorting in memory, against Delaunay
+  Sweep_cost first, late; ///< on the refined mesh in order; after 30 sweeps of the same run
   double cgal = -1;       ///< one sweep of CGAL's ODT against Delaunay of its points
   char failure[200] = "";
 };
@@ -266,9 +267,15 @@ inline void run_sweep_costs(const Spatial_domain& domain, const Bounds& bounds, 
   const auto criteria = weft_criteria(domain.input(), bounds);
   Weft_mesh mesh = refined_mesh(domain, bounds), other = refined_mesh(domain, bounds);
   m.vertices = static_cast<double>(mesh.vertices().size());
+  mesh.sort_in_memory();
+  other.sort_in_memory();
   m.late = last_sweeps_cost(other, mesh, criteria, 35, 5);
   mesh = refined_mesh(domain, bounds);
+  const double start = user_seconds();
+  mesh.sort_in_memory();
+  const double seconds = user_seconds() - start;
   m.first = first_sweep_cost(mesh, criteria);
+  m.ordering = seconds / m.first.delaunay;
   if (!with_cgal) return;
   Cgal_complex complex = mesh_with_cgal(domain.cgal_domain(), bounds, bounds.size);
   std::vector<Spatial_kernel::Point_3> points;

@@ -14,11 +14,15 @@
 #include <CGAL/Mesh_polyhedron_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
 #include <CGAL/Polyhedral_complex_mesh_domain_3.h>
+#include <CGAL/Polyhedral_mesh_domain_3.h>
+#include <CGAL/Random.h>
+#include <CGAL/Surface_mesh.h>
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -45,6 +49,31 @@ using Complex_tr = CGAL::Mesh_triangulation_3<Complex_domain>::type;
 using Complex_c3t3 =
     CGAL::Mesh_complex_3_in_triangulation_3<Complex_tr, Complex_domain::Corner_index, Complex_domain::Curve_index>;
 using Complex_criteria = CGAL::Mesh_criteria_3<Complex_tr>;
+
+using Surface = CGAL::Surface_mesh<Point>;
+
+/// A domain of CGAL's that counts how often it is asked, and may mean the opposite of what its triangles say.
+class Watched_domain : public CGAL::Polyhedral_mesh_domain_3<Surface, K>
+{
+public:
+  Watched_domain(const Surface& surface, bool is_inverted)
+      : CGAL::Polyhedral_mesh_domain_3<Surface, K>(surface), is_inverted_(is_inverted)
+  {}
+
+  auto is_in_domain_object() const
+  {
+    return [this](const Point& p) {
+      ++questions;
+      const auto inside = CGAL::Polyhedral_mesh_domain_3<Surface, K>::is_in_domain_object()(p);
+      return is_inverted_ ? (inside ? Subdomain() : Subdomain(1)) : inside;
+    };
+  }
+
+  mutable int questions = 0;
+
+private:
+  bool is_inverted_;
+};
 
 template <class C3t3>
 std::map<int, double> volumes(const C3t3& c3t3)
@@ -98,6 +127,18 @@ Polyhedron box(double x0, double x1, const std::string& takes)
   Polyhedron polyhedron;
   in >> polyhedron;
   return polyhedron;
+}
+
+double squared_distance_to(const Surface& surface, const Point& p)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto f : surface.faces()) {
+    const auto side = surface.halfedge(f);
+    const K::Triangle_3 triangle(surface.point(surface.source(side)), surface.point(surface.target(side)),
+                                 surface.point(surface.target(surface.next(side))));
+    least = (std::min)(least, CGAL::squared_distance(p, triangle));
+  }
+  return least;
 }
 
 } // namespace
@@ -197,6 +238,52 @@ TEST_CASE("a polyhedral complex keeps its features, its subdomains and CGAL's in
     CHECK(c3t3.triangulation().segment(*e).squared_length() <= 0.04 * (1 + 1e-9));
   }
   CHECK(curves.size() == 20);
+}
+
+TEST_CASE("a CGAL domain of triangles is known by those")
+{
+  Surface surface;
+  CGAL::copy_face_graph(box(0, 1, "111111"), surface);
+  CGAL::copy_face_graph(box(3, 3.01, "111111"), surface); // thin, and far from the other
+  const Watched_domain domain(surface, false);
+  const weft::Mesh_domain_oracle_3<Watched_domain> oracle(domain);
+  const int questions = domain.questions;
+  CGAL::Random random(1);
+  for (int i = 0; i < 2000; ++i) {
+    const auto coordinate = [&](double low, double high) { return random.get_double(low, high); };
+    const Point p(coordinate(-0.2, 3.2), coordinate(-0.2, 1.2), coordinate(-0.2, 1.2)),
+        q(coordinate(-0.2, 3.2), coordinate(-0.2, 1.2), coordinate(-0.2, 1.2));
+    const bool inside = domain.CGAL::Polyhedral_mesh_domain_3<Surface, K>::is_in_domain_object()(p).has_value();
+    CHECK(oracle.subdomain(p) == (inside ? 1 : 0));
+    const auto nearest = oracle.closest(p);
+    CHECK(CGAL::squared_distance(p, nearest.point) == Approx(squared_distance_to(surface, p)).margin(1e-12));
+    const double distance = std::sqrt(CGAL::squared_distance(p, nearest.point));
+    CHECK(oracle.is_within(p, 1.001 * 1.001 * distance * distance));
+    CHECK_FALSE(oracle.is_within(p, 0.998 * distance * distance));
+    CHECK(oracle.is_clear(p, 0.9 * distance - 1e-5)); // which may be wrong by that
+    CHECK_FALSE(oracle.is_clear(p, 1.01 * distance + 1e-9));
+    std::vector<weft::Surface_hit_3<Watched_domain::R>> hits;
+    if (oracle.intersect(p, q, hits) == 0) continue;
+    REQUIRE(hits.size() == 1);
+    CHECK(squared_distance_to(surface, hits[0].point) < 1e-20);
+    CHECK(CGAL::squared_distance(hits[0].point, K::Segment_3(p, q)) < 1e-20);
+  }
+  CHECK(domain.questions == questions);
+  const auto seeds = oracle.patch_seeds(0, 5); // of either box
+  CHECK(seeds.size() == 10);
+  CHECK(std::count_if(seeds.begin(), seeds.end(), [](const auto& seed) { return seed.point.x() > 2; }) == 5);
+}
+
+TEST_CASE("a domain that means something else than its triangles is asked")
+{
+  Surface surface;
+  CGAL::copy_face_graph(box(0, 1, "111111"), surface);
+  const Watched_domain domain(surface, true);
+  const weft::Mesh_domain_oracle_3<Watched_domain> oracle(domain);
+  const int questions = domain.questions;
+  CHECK(oracle.subdomain(Point(0.5, 0.5, 0.5)) == 0);
+  CHECK(oracle.subdomain(Point(1.0005, 0.5, 0.5)) == 1);
+  CHECK(domain.questions == questions + 2);
 }
 
 TEST_CASE("an empty CGAL domain is refused")

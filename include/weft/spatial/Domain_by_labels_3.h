@@ -177,7 +177,9 @@ protected:
   /// \param parts of the longest side of the bounding box. O(parts^3) labels.
   void find_seeds(int parts) { seeds_ = internal::interface_seeds_3<K>(derived(), parts); }
 
-  /// Takes points of the boundary that are known otherwise.
+  /// Takes points of the boundary, by patch and connected part, that are known otherwise.
+  void set_seeds(std::vector<std::vector<std::vector<Point>>> seeds) { seeds_ = std::move(seeds); }
+  /// Adds some, each a part of its own.
   void add_seeds(const std::vector<Surface_hit_3<K>>& more)
   {
     for (const auto& hit : more) {

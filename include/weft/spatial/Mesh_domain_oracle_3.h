@@ -3,8 +3,9 @@
 // The domain oracle of any model of CGAL's MeshDomain_3 or MeshDomainWithFeatures_3 (Tournois 2009, sec. 4.2.1.3):
 // implicit functions, labelled images, polyhedral domains and complexes, and what users have of their own. Such a
 // domain says in which subdomain a point lies and where it thinks that a segment meets its surface; the rest is worked
-// out by Domain_by_labels_3. Indices of subdomains, patches, curves and corners are numbered here, and known again when
-// a C3t3 is made.
+// out by Domain_by_labels_3. A domain that shows its triangles isn't asked: their own hierarchy knows the same,
+// exactly, and the nearest point besides. Indices of subdomains, patches, curves and corners are numbered here, and
+// known again when a C3t3 is made.
 
 #ifndef WEFT_SPATIAL_MESH_DOMAIN_ORACLE_3_H
 #define WEFT_SPATIAL_MESH_DOMAIN_ORACLE_3_H
@@ -12,12 +13,16 @@
 #include <weft/errors.h>
 #include <weft/spatial/discretise_curve_3.h>
 #include <weft/spatial/Domain_by_labels_3.h>
+#include <weft/spatial/domain_triangles_3.h>
+#include <weft/spatial/Patched_surface_3.h>
 #include <weft/spatial/Tetrahedral_mesh_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <map>
@@ -98,6 +103,7 @@ public:
       : Base(enlarged(domain.bbox())), domain_(&domain)
   {
     take_features();
+    if (take_triangles()) return;
     Base::find_seeds(coarse_grid);
     is_precise_ = intersections_are_precise();
     Base::find_seeds(seed_grid);
@@ -108,20 +114,38 @@ public:
       throw Domain_error("no point of the boundary was found: the domain is empty or too small", {}, {});
   }
 
-  int label(const Point& p) const
-  {
-    const auto subdomain = domain_->is_in_domain_object()(p);
-    return subdomain ? subdomains_.number(*subdomain) : 0;
-  }
+  int label(const Point& p) const { return has_triangles_ ? surface_.subdomain(p) : label_by_domain(p); }
 
   /// Where the domain says, if that is where labels change; else by bisection.
   Surface_hit_3<Kernel> crossing(const Point& p, const Point& q, int at_p, int at_q) const
   {
-    if (is_precise_ && Base::is_in_box(p) && Base::is_in_box(q)) {
+    if (has_triangles_) {
+      thread_local std::vector<Surface_hit_3<Kernel>> hits;
+      hits.clear();
+      surface_.intersect(p, q, hits);
+      if (!hits.empty()) return hits.front();
+    } else if (is_precise_ && Base::is_in_box(p) && Base::is_in_box(q)) {
       Surface_hit_3<Kernel> hit{p, -1};
       if (intersection(p, q, hit)) return hit;
     }
     return Base::crossing(p, q, at_p, at_q);
+  }
+
+  Surface_hit_3<Kernel> closest(const Point& p) const
+  {
+    return has_triangles_ ? surface_.nearest(p) : Base::closest(p);
+  }
+  Surface_hit_3<Kernel> project_on_patch(const Point& p, int patch) const
+  {
+    return has_triangles_ ? surface_.nearest_on_patch(p, patch) : Base::project_on_patch(p, patch);
+  }
+  bool is_within(const Point& p, double squared_distance) const
+  {
+    return has_triangles_ ? surface_.is_within(p, squared_distance) : Base::is_within(p, squared_distance);
+  }
+  bool is_clear(const Point& p, double radius) const
+  {
+    return has_triangles_ ? surface_.clearance(p) >= radius : Base::is_clear(p, radius);
   }
 
   // Where segments are exact and points dear to locate, as in polyhedral domains, labels aren't asked for.
@@ -207,6 +231,52 @@ private:
     }
   }
 
+  int label_by_domain(const Point& p) const
+  {
+    const auto subdomain = domain_->is_in_domain_object()(p);
+    return subdomain ? subdomains_.number(*subdomain) : 0;
+  }
+
+  /// Takes the domain's triangles, if it shows them and means by them what they say. Whether it does.
+  bool take_triangles()
+  {
+    if constexpr (internal::Has_triangles_3<Domain>::value) {
+      const auto triangles = internal::domain_triangles_3(
+          *domain_, [&](const auto& patch) { return patches_.number(patch); },
+          [&](const auto& subdomain) { return subdomains_.number(subdomain); });
+      const auto n = static_cast<std::size_t>(patches_.size());
+      surface_ = internal::Patched_surface_3<Kernel>(triangles, n);
+      has_triangles_ = !triangles.empty() && agrees_with_domain(triangles);
+      if (has_triangles_) Base::set_seeds(internal::triangle_seeds_3<Kernel>(triangles, n));
+    }
+    return has_triangles_;
+  }
+
+  /// Whether the domain gives the same labels beside some of its triangles as those do, and meets them: a class derived
+  /// from one of CGAL's may mean something else by its triangles, and an open surface has no sides.
+  bool agrees_with_domain(const std::vector<internal::Surface_triangle_3<Kernel>>& triangles) const
+  {
+    constexpr std::size_t samples = 300;
+    const std::size_t step = (triangles.size() + samples - 1) / samples;
+    const double squared_precision = 1e-18 * Base::diagonal() * Base::diagonal();
+    for (std::size_t t = 0; t < triangles.size(); t += step) {
+      const auto& [a, b, c] = triangles[t].points;
+      const internal::Xyz_3 normal = internal::cross_product(internal::minus(internal::xyz(b), internal::xyz(a)),
+                                                             internal::minus(internal::xyz(c), internal::xyz(a)));
+      const double area = internal::norm(normal), length = 0.007 * std::sqrt(area);
+      if (!(area > 0)) continue;
+      const Point center((a.x() + b.x() + c.x()) / 3, (a.y() + b.y() + c.y()) / 3, (a.z() + b.z() + c.z()) / 3);
+      const std::array<Point, 2> sides{Base::moved(center, normal, length / area),
+                                       Base::moved(center, normal, -length / area)};
+      for (const Point& p : sides)
+        if (surface_.subdomain(p) != label_by_domain(p) && !surface_.is_within(p, squared_precision)) return false;
+      Surface_hit_3<Kernel> hit{center, -1};
+      if (!intersection(sides[0], sides[1], hit)) return false;
+      if (!surface_.is_within(hit.point, squared_precision)) return false;
+    }
+    return true;
+  }
+
   std::vector<Surface_hit_3<Kernel>> initial_points() const
   {
     std::vector<std::pair<Point, typename Domain::Index>> points;
@@ -255,6 +325,8 @@ private:
 
   const Domain* domain_;
   bool is_precise_ = false;
+  internal::Patched_surface_3<Kernel> surface_; ///< of the domain's own triangles
+  bool has_triangles_ = false;
   mutable internal::Index_numbers<typename Domain::Subdomain_index> subdomains_{1};
   mutable internal::Index_numbers<typename Domain::Surface_patch_index> patches_{0};
   mutable std::map<std::pair<int, int>, int> last_patch_; ///< by subdomains

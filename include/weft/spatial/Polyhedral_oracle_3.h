@@ -18,22 +18,19 @@
 
 #include <weft/errors.h>
 #include <weft/internal/farthest_points_3.h>
-#include <weft/internal/Triangle_hierarchy_3.h>
 #include <weft/spatial/Acute_edges_3.h>
 #include <weft/spatial/Crease_network_3.h>
 #include <weft/spatial/Feature_incidence_3.h>
 #include <weft/spatial/oracle_hits_3.h>
+#include <weft/spatial/Patched_surface_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/Salient_features_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/squared_distance_3.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -66,7 +63,7 @@ public:
     constexpr std::size_t limit = std::size_t(1) << 30;
     if (complex_.triangles.size() >= limit || complex_.points.size() >= limit)
       throw Domain_error("a surface of 2^30 or more points or triangles", {}, {});
-    build_surfaces();
+    build_surface();
     build_creases();
     acute_edges_ = Acute_edges_3<K>(complex_, acute_angle);
     salient_ = Salient_features_3<K>(complex_, {fold_angle, ridge_angle, sharp_angle, 180 - acute_angle});
@@ -85,11 +82,7 @@ public:
   Feature_incidence_3 incidence() const { return Feature_incidence_3(complex_); }
 
   /// Bounding box of the boundary.
-  CGAL::Bbox_3 bbox() const
-  {
-    const internal::Box_3& box = surface_.box();
-    return CGAL::Bbox_3(box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2]);
-  }
+  CGAL::Bbox_3 bbox() const { return surface_.bbox(); }
 
   /// The subdomain, 1 where there is but one; 0 outside and exactly on the boundary. Exact.
   int subdomain(const Point& p) const { return surface_.subdomain(p); }
@@ -102,43 +95,20 @@ public:
   /// always.
   int intersect(const Point& p, const Point& q, std::vector<Surface_hit_3<K>>& hits) const
   {
-    const auto first = hits.size();
-    int change = 0;
-    std::vector<Contact> contacts; // allocates only where something is degenerate
-    surface_.visit_segment(p, q, [&](const auto& pair) {
-      if (pair.crosses()) change ^= pair.change();
-      if (pair.is_degenerate())
-        pair.contacts([&](const Contact& contact) { contacts.push_back(contact); });
-      else
-        hits.push_back({pair.point(), pair.patch()});
-      return false;
-    });
-    if (!contacts.empty() && add_contacts(p, q, contacts, hits)) change = subdomain(p) ^ subdomain(q);
-    if (hits.size() - first > 1) sort_along(p, q, hits, first);
-    return change;
+    return surface_.intersect(p, q, hits);
   }
 
   /// Whether the closed segment pq and the boundary have a point in common.
-  bool meets(const Point& p, const Point& q) const
-  {
-    return surface_.visit_segment(p, q, [&](const auto& pair) {
-      bool touches = !pair.is_degenerate();
-      if (!touches) pair.contacts([&](const Contact&) { touches = true; });
-      return touches;
-    });
-  }
+  bool meets(const Point& p, const Point& q) const { return surface_.meets(p, q); }
 
   /// Nearest point of the boundary.
-  Surface_hit_3<K> closest(const Point& p) const { return hit(surface_.nearest(p)); }
+  Surface_hit_3<K> closest(const Point& p) const { return surface_.nearest(p); }
 
   /// Whether the boundary comes as near to p as that.
   bool is_within(const Point& p, double squared_distance) const { return surface_.is_within(p, squared_distance); }
 
   /// Nearest point of a patch.
-  Surface_hit_3<K> project_on_patch(const Point& p, int patch) const
-  {
-    return hit(patches_.empty() ? surface_.nearest(p) : patches_[patch].nearest(p));
-  }
+  Surface_hit_3<K> project_on_patch(const Point& p, int patch) const { return surface_.nearest_on_patch(p, patch); }
 
   /// Nearest point of a crease.
   Point project_on_crease(const Point& p, int crease) const { return creases_.project_on_crease(p, crease); }
@@ -233,13 +203,11 @@ private:
 
   static constexpr double acute_angle = 60; // degrees; from there on refinement ends by itself
 
-  using Contact = internal::Contact_3<Point>;
   using Triangle = internal::Surface_triangle_3<K>;
 
-  void build_surfaces()
+  void build_surface()
   {
     std::vector<Triangle> all;
-    std::vector<std::vector<Triangle>> of_patch(complex_.number_of_patches > 1 ? complex_.number_of_patches : 0);
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
       Triangle triangle;
       for (int i = 0; i < 3; ++i) {
@@ -253,10 +221,8 @@ private:
         triangle.change = behind ^ before;
       }
       all.push_back(triangle);
-      if (!of_patch.empty()) of_patch[triangle.patch].push_back(triangle);
     }
-    surface_ = internal::Triangle_hierarchy_3<K>(all);
-    for (const auto& triangles : of_patch) patches_.emplace_back(triangles);
+    surface_ = internal::Patched_surface_3<K>(all, static_cast<std::size_t>(complex_.number_of_patches));
   }
 
   void build_creases()
@@ -269,41 +235,6 @@ private:
       for (const std::size_t v : crease.vertices) creases.back().points.push_back(complex_.points[v]);
     }
     creases_ = Crease_network_3<K>(std::move(corners), std::move(creases));
-  }
-
-  static Surface_hit_3<K> hit(const typename internal::Triangle_hierarchy_3<K>::Nearest& nearest)
-  {
-    return {nearest.point, nearest.patch};
-  }
-
-  // Appends each touched vertex, edge or triangle once; returns whether an end of the segment is touched.
-  static bool add_contacts(const Point& p, const Point& q, std::vector<Contact>& contacts,
-                           std::vector<Surface_hit_3<K>>& hits)
-  {
-    const auto key = [](const Contact& c) { return std::make_tuple(c.first, c.second, static_cast<int>(c.end)); };
-    std::sort(contacts.begin(), contacts.end(), [&](const Contact& x, const Contact& y) {
-      return std::make_pair(key(x), x.triangle) < std::make_pair(key(y), y.triangle);
-    });
-    bool at_end = false;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const Contact& c = contacts[i];
-      at_end = at_end || c.point == p || c.point == q;
-      if (i == 0 || key(c) != key(contacts[i - 1])) hits.push_back({c.point, c.patch});
-    }
-    return at_end;
-  }
-
-  static void sort_along(const Point& p, const Point& q, std::vector<Surface_hit_3<K>>& hits, std::size_t first)
-  {
-    const internal::Xyz_3 d = internal::difference(q, p);
-    const auto along = [&](const Point& x) {
-      return d[0] * (x.x() - p.x()) + d[1] * (x.y() - p.y()) + d[2] * (x.z() - p.z());
-    };
-    std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
-              [&](const Surface_hit_3<K>& x, const Surface_hit_3<K>& y) {
-                const double at_x = along(x.point), at_y = along(y.point);
-                return std::tie(at_x, x.point, x.patch) < std::tie(at_y, y.point, y.patch);
-              });
   }
 
   template <class Belongs>
@@ -337,8 +268,7 @@ private:
   }
 
   Piecewise_smooth_complex_3<K> complex_;
-  internal::Triangle_hierarchy_3<K> surface_;
-  std::vector<internal::Triangle_hierarchy_3<K>> patches_; // empty if there is but one
+  internal::Patched_surface_3<K> surface_;
   Crease_network_3<K> creases_;
   Salient_features_3<K> salient_;
   Acute_edges_3<K> acute_edges_;
