@@ -286,6 +286,18 @@ TEST_CASE("a domain that means something else than its triangles is asked")
   CHECK(domain.questions == questions + 2);
 }
 
+TEST_CASE("surfaces within a subdomain are refused")
+{
+  const Polyhedron sheet = box(0.2, 0.8, "100000"), surface = box(0, 1, "111111");
+  using Domain = CGAL::Polyhedral_mesh_domain_3<Polyhedron, K>;
+  const Domain domain(sheet, surface);
+  CHECK_THROWS_WITH(weft::Mesh_domain_oracle_3<Domain>(domain), Catch::Contains("2 of the domain's 14 triangles"));
+  const std::vector<Polyhedron> parts = {box(0, 1, "111111"), box(0.2, 0.8, "010000")};
+  const std::vector<std::pair<int, int>> sides = {{1, 0}, {1, 1}};
+  const Complex_domain complex(parts.begin(), parts.end(), sides.begin(), sides.end());
+  CHECK_THROWS_AS(weft::Mesh_domain_oracle_3<Complex_domain>(complex), weft::Domain_error);
+}
+
 TEST_CASE("an empty CGAL domain is refused")
 {
   const Labeled_domain domain =

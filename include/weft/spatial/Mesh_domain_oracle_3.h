@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -98,7 +99,8 @@ public:
   /// \param domain has to live as long as this object.
   /// \param seed_grid number of parts of the bounding box's longest side on which the boundary is looked for, besides
   ///        the initial points that the domain itself gives.
-  /// \throws Domain_error if no point of the boundary is found.
+  /// \throws Domain_error if no point of the boundary is found, and if a polyhedral domain has surfaces with the same
+  ///         subdomain on both sides: a mesh's facets lie between subdomains.
   explicit Mesh_domain_oracle_3(const Domain& domain, int seed_grid = 30)
       : Base(enlarged(domain.bbox())), domain_(&domain)
   {
@@ -247,7 +249,12 @@ private:
       const auto n = static_cast<std::size_t>(patches_.size());
       surface_ = internal::Patched_surface_3<Kernel>(triangles, n);
       has_triangles_ = !triangles.empty() && agrees_with_domain(triangles);
-      if (has_triangles_) Base::set_seeds(internal::triangle_seeds_3<Kernel>(triangles, n));
+      if (!has_triangles_) return false;
+      if (const std::size_t all = domain_->aabb_tree().size(); all > triangles.size())
+        throw Domain_error(std::to_string(all - triangles.size()) + " of the domain's " + std::to_string(all) +
+                               " triangles have the same subdomain on both sides: a mesh has no facets there",
+                           {}, {});
+      Base::set_seeds(internal::triangle_seeds_3<Kernel>(triangles, n));
     }
     return has_triangles_;
   }

@@ -33,6 +33,7 @@ struct Has_triangles_3 : std::false_type
 template <class Domain>
 struct Has_triangles_3<Domain,
                        std::void_t<decltype(std::declval<const Domain&>().bounding_aabb_tree_ptr()->bbox()),
+                                   decltype(std::declval<const Domain&>().aabb_tree().size()),
                                    decltype(halfedge(std::declval<typename Domain::AABB_primitive_id>().first,
                                                      *std::declval<typename Domain::AABB_primitive_id>().second)),
                                    decltype(std::declval<const Domain&>().make_surface_index(
