@@ -8,7 +8,6 @@
 
 #include <weft/errors.h>
 #include <weft/internal/counted.h>
-#include <weft/internal/interface_complex_3.h>
 #include <weft/internal/Mesh_facets_3.h>
 #include <weft/options.h>
 #include <weft/spatial/Boundary_sizing_3.h>
@@ -17,6 +16,7 @@
 #include <weft/spatial/features_3.h>
 #include <weft/spatial/improve_fixed_3.h>
 #include <weft/spatial/Improve_options_3.h>
+#include <weft/spatial/interface_complex_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/Polyhedral_oracle_3.h>
 #include <weft/spatial/Spatial_mesher_3.h>

@@ -10,12 +10,12 @@
 
 #include <weft/internal/check_surface_topology_3.h>
 #include <weft/internal/check_surface_volume_3.h>
-#include <weft/internal/crease_chains_3.h>
-#include <weft/internal/derive_features_3.h>
-#include <weft/internal/triangulate_polygons_3.h>
+#include <weft/spatial/crease_chains_3.h>
+#include <weft/spatial/derive_features_3.h>
 #include <weft/spatial/Feature_options.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/Polygon_soup_3.h>
+#include <weft/spatial/triangulate_polygons_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/boost/graph/iterator.h>

@@ -6,10 +6,10 @@
 #ifndef WEFT_SPATIAL_GIVE_UP_CREASES_3_H
 #define WEFT_SPATIAL_GIVE_UP_CREASES_3_H
 
-#include <weft/internal/derive_features_3.h>
 #include <weft/internal/surface_topology_3.h>
 #include <weft/spatial/bad_elements_3.h>
 #include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/derive_features_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 
 #include <algorithm>

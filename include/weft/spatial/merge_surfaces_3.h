@@ -6,9 +6,9 @@
 #ifndef WEFT_SPATIAL_MERGE_SURFACES_3_H
 #define WEFT_SPATIAL_MERGE_SURFACES_3_H
 
-#include <weft/internal/interface_complex_3.h>
 #include <weft/internal/Triangle_hierarchy_3.h>
 #include <weft/spatial/features_3.h>
+#include <weft/spatial/interface_complex_3.h>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 //
 // Cuts the polygons of a soup into triangles that remember their polygon.
 
-#ifndef WEFT_INTERNAL_TRIANGULATE_POLYGONS_3_H
-#define WEFT_INTERNAL_TRIANGULATE_POLYGONS_3_H
+#ifndef WEFT_SPATIAL_TRIANGULATE_POLYGONS_3_H
+#define WEFT_SPATIAL_TRIANGULATE_POLYGONS_3_H
 
 #include <weft/internal/check_surface_topology_3.h>
 #include <weft/internal/surface_complaints_3.h>
@@ -149,4 +149,4 @@ Triangle_surface_3<K> triangulate_polygons(const Polygon_soup_3<K>& soup)
 } // namespace internal
 } // namespace weft
 
-#endif // WEFT_INTERNAL_TRIANGULATE_POLYGONS_3_H
+#endif // WEFT_SPATIAL_TRIANGULATE_POLYGONS_3_H

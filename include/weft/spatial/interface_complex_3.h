@@ -3,14 +3,14 @@
 // The piecewise smooth complex of triangles that are known to bound subdomains (Tournois 2009, sec. 4.2.1.2): creases
 // are where subdomains meet along edges, where the surface is sharp, and where they are given.
 
-#ifndef WEFT_INTERNAL_INTERFACE_COMPLEX_3_H
-#define WEFT_INTERNAL_INTERFACE_COMPLEX_3_H
+#ifndef WEFT_SPATIAL_INTERFACE_COMPLEX_3_H
+#define WEFT_SPATIAL_INTERFACE_COMPLEX_3_H
 
-#include <weft/internal/crease_chains_3.h>
-#include <weft/internal/derive_features_3.h>
 #include <weft/internal/Disjoint_parts.h>
 #include <weft/internal/surface_complaints_3.h>
 #include <weft/internal/surface_topology_3.h>
+#include <weft/spatial/crease_chains_3.h>
+#include <weft/spatial/derive_features_3.h>
 #include <weft/spatial/features_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 
@@ -126,4 +126,4 @@ void check_interfaces_apart(const Triangle_surface_3<K>& surface)
 } // namespace internal
 } // namespace weft
 
-#endif // WEFT_INTERNAL_INTERFACE_COMPLEX_3_H
+#endif // WEFT_SPATIAL_INTERFACE_COMPLEX_3_H

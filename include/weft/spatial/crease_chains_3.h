@@ -3,8 +3,8 @@
 // Sharp edges of a surface by angle, the feature vertices that follow from them, and the creases they chain up to
 // (Tournois 2009, sec. 3.2.1.1).
 
-#ifndef WEFT_INTERNAL_CREASE_CHAINS_3_H
-#define WEFT_INTERNAL_CREASE_CHAINS_3_H
+#ifndef WEFT_SPATIAL_CREASE_CHAINS_3_H
+#define WEFT_SPATIAL_CREASE_CHAINS_3_H
 
 #include <weft/internal/coordinates_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
@@ -180,4 +180,4 @@ chain_creases(const Sharp_graph_3& graph, const std::vector<typename Piecewise_s
 } // namespace internal
 } // namespace weft
 
-#endif // WEFT_INTERNAL_CREASE_CHAINS_3_H
+#endif // WEFT_SPATIAL_CREASE_CHAINS_3_H

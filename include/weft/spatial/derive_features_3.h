@@ -3,12 +3,12 @@
 // From the sharp edges of a surface to creases, feature vertices and patches (Tournois 2009, sec. 3.2.1.1). Creases
 // found by angle that end in the middle of a patch and are short are noise of the surface more often than a feature.
 
-#ifndef WEFT_INTERNAL_DERIVE_FEATURES_3_H
-#define WEFT_INTERNAL_DERIVE_FEATURES_3_H
+#ifndef WEFT_SPATIAL_DERIVE_FEATURES_3_H
+#define WEFT_SPATIAL_DERIVE_FEATURES_3_H
 
-#include <weft/internal/crease_chains_3.h>
 #include <weft/internal/Disjoint_parts.h>
 #include <weft/internal/surface_topology_3.h>
+#include <weft/spatial/crease_chains_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 
 #include <algorithm>
@@ -128,4 +128,4 @@ void derive_features(const Sharp_edges_3& edges, const std::vector<Surface_side_
 } // namespace internal
 } // namespace weft
 
-#endif // WEFT_INTERNAL_DERIVE_FEATURES_3_H
+#endif // WEFT_SPATIAL_DERIVE_FEATURES_3_H
