@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -64,9 +65,11 @@ public:
   double operator()(Vertex_handle v) const { return sizes_[static_cast<std::size_t>(v->id())]; }
 
 private:
+  using Id = std::uint32_t; ///< of a vertex
+
   struct Edge
   {
-    std::size_t other;
+    Id other;
     double length;
   };
 
@@ -79,13 +82,13 @@ private:
     const std::size_t n = mesh.vertices().size();
     ends_.clear();
     first_.assign(n + 1, 0);
-    std::vector<std::size_t> seen_from(n, n);
+    std::vector<Id> seen_from(n, static_cast<Id>(n));
     for (std::size_t v = 0; v < n; ++v)
       for (std::size_t k = first_upper_[v]; k < first_upper_[v + 1]; ++k) {
-        const std::size_t w = upper_[k];
+        const Id w = upper_[k];
         if (seen_from[w] == v) continue;
-        seen_from[w] = v;
-        ends_.emplace_back(v, w);
+        seen_from[w] = static_cast<Id>(v);
+        ends_.emplace_back(static_cast<Id>(v), w);
         ++first_[v + 1];
         ++first_[w + 1];
       }
@@ -107,8 +110,8 @@ private:
     first_upper_.assign(mesh.vertices().size() + 1, 0);
     for (const auto c : mesh.triangulation().finite_cell_handles()) {
       if (c->subdomain() == 0) continue;
-      std::array<std::size_t, 4> ids;
-      for (int i = 0; i < 4; ++i) ids[static_cast<std::size_t>(i)] = static_cast<std::size_t>(c->vertex(i)->id());
+      std::array<Id, 4> ids;
+      for (int i = 0; i < 4; ++i) ids[static_cast<std::size_t>(i)] = static_cast<Id>(c->vertex(i)->id());
       std::sort(ids.begin(), ids.end());
       for (std::size_t i = 0; i < 3; ++i) first_upper_[ids[i] + 1] += 3 - i;
       corners_.push_back(ids);
@@ -130,7 +133,7 @@ private:
     const auto spread = [&](double size, std::size_t v, const auto& reached) {
       for (std::size_t e = first_[v]; e < first_[v + 1]; ++e) {
         const double at_other = size + lipschitz_ * edges_[e].length;
-        if (at_other < sizes_[edges_[e].other]) reached(edges_[e].other, at_other);
+        if (at_other < sizes_[edges_[e].other]) reached(std::size_t(edges_[e].other), at_other);
       }
     };
     for (std::size_t v = 0; v < sizes_.size(); ++v) {
@@ -150,9 +153,10 @@ private:
   }
 
   double lipschitz_, uniform_ = 0;
-  std::vector<std::array<std::size_t, 4>> corners_; ///< sorted, of the domain's cells
-  std::vector<std::size_t> first_upper_, upper_;
-  std::vector<std::pair<std::size_t, std::size_t>> ends_;
+  std::vector<std::array<Id, 4>> corners_; ///< sorted, of the domain's cells
+  std::vector<std::size_t> first_upper_;
+  std::vector<Id> upper_;
+  std::vector<std::pair<Id, Id>> ends_;
   std::vector<std::size_t> first_; ///< of the edges of each vertex
   std::vector<Edge> edges_;
   std::vector<double> sizes_;

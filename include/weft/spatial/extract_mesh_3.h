@@ -8,6 +8,7 @@
 #include <weft/spatial/Restricted_delaunay_3.h>
 #include <weft/spatial/Tetrahedral_mesh_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -27,9 +28,17 @@ Tetrahedral_mesh_3<typename Oracle::Kernel> tetrahedral_mesh(const Restricted_de
     return number[static_cast<std::size_t>(v->id())];
   };
   const auto& tr = restricted.triangulation();
-  for (const auto c : tr.finite_cell_handles())
-    if (c->subdomain() != 0)
-      for (int i = 0; i < 4; ++i) number_of(c->vertex(i)) = used;
+  std::size_t cells = 0;
+  for (const auto c : tr.finite_cell_handles()) {
+    if (c->subdomain() == 0) continue;
+    ++cells;
+    for (int i = 0; i < 4; ++i) number_of(c->vertex(i)) = used;
+  }
+  const auto points = static_cast<std::size_t>(std::count(number.begin(), number.end(), used));
+  mesh.points.reserve(points);
+  mesh.locations.reserve(points);
+  mesh.cells.reserve(cells);
+  mesh.subdomains.reserve(cells);
   for (const auto v : restricted.vertices()) {
     if (v == typename Restricted::Vertex_handle() || number_of(v) == unused) continue; // null: while coarsening
     number_of(v) = mesh.points.size();
