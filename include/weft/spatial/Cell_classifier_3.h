@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -66,12 +67,12 @@ public:
   /// \param cells finite ones, not classified; every other finite cell is.
   void classify(const std::vector<Cell_handle>& cells)
   {
+    if (classified_.size() > most_kept) release_memory();
     find_circumcenters(cells);
     list_edges(cells);
     cross_boundary(cells);
     label_cells(cells);
     publish(cells);
-    if (cells.size() > most_kept) release(centers_, labels_, box_, across_, changes_, slots_, blocks_, front_);
   }
 
   /// The cells of the last call, in an order in which each follows a neighbour that tells its label.
@@ -86,15 +87,14 @@ private:
   // What lies across a facet of a new cell: the number of another new cell, or one of these.
   static constexpr int old_cell = -1, no_edge = -2; ///< no edge: the facet has a vertex of the box
 
-  static constexpr std::size_t block_size = 256; ///< edges whose facets are collected together
-  /// Cells for which memory is kept. Most calls are about some dozens; what the first one took, about all cells, was
-  /// 0.6 of what the cells themselves take.
-  static constexpr std::size_t most_kept = 10000;
+  static constexpr std::size_t block_size = 256;  ///< edges whose facets are collected together
+  static constexpr std::size_t most_kept = 10000; ///< cells for which memory is kept
 
-  template <class... Vectors>
-  static void release(Vectors&... vectors)
+  /// Most calls are about some dozens of cells; what the first one took, about all, was 0.6 of what the cells take.
+  void release_memory()
   {
-    (Vectors().swap(vectors), ...);
+    const auto release = [](auto&... vectors) { (std::decay_t<decltype(vectors)>().swap(vectors), ...); };
+    release(centers_, labels_, box_, across_, changes_, slots_, blocks_, front_, classified_, facets_);
   }
 
   void find_circumcenters(const std::vector<Cell_handle>& cells)
@@ -145,7 +145,6 @@ private:
           for (std::size_t e = b * block_size; e < end; ++e) cross_boundary(cells, slots_[e], blocks_[b]);
         },
         1);
-    if (facets_.size() > most_kept) release(facets_);
     facets_.clear();
     for (std::size_t b = 0; b < blocks; ++b) facets_.insert(facets_.end(), blocks_[b].begin(), blocks_[b].end());
     counts_.segments += slots_.size();
@@ -217,7 +216,6 @@ private:
 
   void publish(const std::vector<Cell_handle>& cells)
   {
-    if (classified_.size() > most_kept) release(classified_);
     classified_.clear();
     for (const std::size_t k : front_) classified_.push_back(cells[k]);
     for (std::size_t k = 0; k < cells.size(); ++k) {
