@@ -1,26 +1,58 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Shows Doxygen the paragraphs that a header starts with: the // lines after the licence become its \file comment. Line
-# numbers stay as they are.
+# Shows Doxygen what headers say without its commands: the // lines after the licence become the header's \file comment,
+# and classes of the namespaces weft and weft::IO get into the group of their folder (see rooms.txt). Line numbers stay
+# as they are.
 #
 #   awk -f filter_header.awk HEADER
 
-FNR == 2 && /^\/\/$/ { print "/*! \\file"; prologue = 1; next }
+BEGIN {
+  folder = ARGV[1]
+  if (sub(/.*\/include\/weft\//, "", folder)) {
+    if (!sub(/\/[^\/]*$/, "", folder)) folder = "start"
+    gsub(/[^A-Za-z0-9]/, "_", folder)
+    group = "room_" folder
+  }
+}
+
+FNR == 2 && /^\/\/$/ { add("/** \\file"); prologue = 1; next }
 prologue && /^\/\// {
   line = substr($0, 3)
   sub(/^ /, "", line)
   if (line ~ /^  [^ -]/ && (was_blank || was_code)) { # indented: code
-    print "  " line
+    add("  " line)
     was_code = 1
     next
   }
   was_blank = line == ""
   was_code = was_code && was_blank
-  print escaped(line)
+  add(escaped(line))
   next
 }
-prologue { print "*/"; prologue = 0; next }
-{ print }
+prologue { add("*/"); prologue = 0; next }
+/^namespace / { is_public = group != "" && /^namespace weft(::IO)? \{/ }
+{ add($0) }
+
+END {
+  for (i = 1; i <= n; ++i) {
+    if (lines[i] == "" && in_public[i] && lines[i + 1] ~ /^\/\/\// && begins_class(i + 1))
+      print "/// \\ingroup " group
+    else
+      print lines[i]
+  }
+}
+
+function add(line) {
+  lines[++n] = line
+  in_public[n] = is_public
+}
+
+# Whether the comment at line k is that of a class, structure or enumeration.
+function begins_class(k) {
+  while (lines[k] ~ /^\/\/\//) ++k
+  while (lines[k] ~ /^(template|  )/) ++k # a template's head, over several lines if need be
+  return lines[k] ~ /^(class|struct|enum) /
+}
 
 # Outside of backticks, arrows and such are text, not HTML.
 function escaped(line,    parts, n, i, result) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE in 2D. `make_mesh_2()` turns a constrained Delaunay triangulation into a mesh of large, well-shaped
+// START HERE in 2D: `make_mesh_2()` turns a constrained Delaunay triangulation into a mesh of large, well-shaped
 // triangles whose edges respect a sizing field, by interleaving refinement with relaxation (Tournois 2009, chapter 2,
 // Alg. 2). `relax_2()` improves a mesh that somebody else made without inserting anything.
 //
