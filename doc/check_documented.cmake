@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every public header starts with a paragraph about it, every public class and function has a comment, and every folder
-# of public headers a line in rooms.txt. Members of classes needn't have a comment, if their names say it all.
+# Every public header starts with a paragraph about it, and every public class and function has a comment. Members of
+# classes needn't, if their names say it all.
 #
 #   cmake -D DOXYGEN=PROGRAM -D DOXYFILE=FILE -D SOURCE_DIR=FOLDER -P check_documented.cmake
 
-cmake_minimum_required(VERSION 3.25)
 set(complaints "")
 file(GLOB_RECURSE headers RELATIVE ${SOURCE_DIR} ${SOURCE_DIR}/include/weft/*.h)
 list(FILTER headers EXCLUDE REGEX "/internal/")
@@ -12,17 +11,6 @@ foreach(header IN LISTS headers)
   file(READ ${SOURCE_DIR}/${header} text LIMIT 200)
   if(NOT text MATCHES "^// SPDX[^\n]*\n//\n// [^\n]+\n")
     string(APPEND complaints "${header}: no paragraph about the header\n")
-  endif()
-endforeach()
-
-file(STRINGS ${SOURCE_DIR}/doc/rooms.txt rooms REGEX "^[^#]+ \\| [^|]+ \\| [^|]+")
-list(TRANSFORM rooms REPLACE " \\| .*" "")
-foreach(header IN LISTS headers)
-  cmake_path(GET header PARENT_PATH folder)
-  string(REGEX REPLACE "^include/weft/?" "" folder "${folder}")
-  if(folder AND NOT folder IN_LIST rooms)
-    string(APPEND complaints "doc/rooms.txt: no line about the folder ${folder}\n")
-    list(APPEND rooms ${folder})
   endif()
 endforeach()
 

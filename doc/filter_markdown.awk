@@ -13,6 +13,8 @@ BEGIN {
   sub(/\.md$/, "", page)
 }
 
+FNR == 1 && /^<!--.*-->$/ { print ""; next } # a page begins with its title
+
 /^```/ { in_code = !in_code; print; next }
 in_code { print; next }
 

@@ -4,7 +4,7 @@
 
 #include <weft/sizing/Background_sizing_2.h>
 #include <weft/sizing/Cached_sizing_2.h>
-#include <weft/sizing/Lfs_sizing_2.h>
+#include <weft/planar/sizing/Lfs_sizing_2.h>
 #include <weft/sizing/Lipschitz_sizing_2.h>
 #include <weft/sizing/Uniform_sizing.h>
 
