@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Options of the meshers. The defaults are meant to be left alone; each option says its unit and what it does.
+// Options of the meshers. Each says its unit and what it does; the defaults suit most inputs.
 
 #ifndef WEFT_OPTIONS_H
 #define WEFT_OPTIONS_H
