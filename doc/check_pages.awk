@@ -3,10 +3,10 @@
 # Whether every C++ block of a page is part of a program that is compiled: its lines, but for indentation and empty
 # lines, have to follow each other in one of the sources. Whether every file that a page links to is there. And whether
 # figures are quoted as they were measured: the number after "<!-- as NAME -->" has to be the one after
-# "<!-- figure NAME -->" on a page of measurements, rounded to the digits quoted. Names what is wrong; status 1 if
-# anything is.
+# "<!-- figure NAME -->" on a page of measurements, rounded to the digits quoted. And whether headers that pages name are
+# there. Names what is wrong; status 1 if anything is.
 #
-#   awk -f check_pages.awk SOURCE... PAGE.md...
+#   awk -v headers="PATH PATH..." -f check_pages.awk SOURCE... PAGE.md...
 
 function trimmed(line) {
   sub(/^[ \t]+/, "", line)
@@ -30,6 +30,17 @@ function check_links(line,    target, folder) {
       ++missing
     }
     close(folder target)
+  }
+}
+
+# Names of headers in backticks, with or without folders before them.
+function check_headers(line,    name) {
+  while (match(line, /`[A-Za-z0-9_\/]+\.h`/)) {
+    name = substr(line, RSTART + 1, RLENGTH - 2)
+    line = substr(line, RSTART + RLENGTH)
+    if (index(headers, "/" name " ")) continue
+    print FILENAME ":" FNR ": there is no header " name
+    ++missing
   }
 }
 
@@ -86,6 +97,7 @@ in_block && /^```/ {
 }
 !in_block {
   check_links($0)
+  check_headers($0)
   look_for_figures($0, "figure")
   look_for_figures($0, "as")
 }
