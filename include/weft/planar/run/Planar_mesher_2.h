@@ -89,9 +89,7 @@ public:
 
 private:
   // Lattice spacing and metric length of constrained edges to aim at, in parts of the target. A wider lattice ends with
-  // fewer triangles, but the layer along the constraints takes longer: for spacings of 0.86 / 0.88 / 0.90 / 0.92 / 0.94
-  // the square at 10k triangles has 1.34 / 1.29 / 1.24 / 1.19 / 1.16 times the ideal number of triangles after
-  // 18 / 18 / 20 / 28 / 38 ms, a comb 1.34 / 1.32 / 1.31 / 1.30 / 1.29 times after 66 / 80 / 99 / 141 / 182 ms.
+  // fewer triangles, but the layer along the constraints takes longer.
   static constexpr double lattice_spacing = 0.9, constraint_spacing = 0.9;
 
   // Costs from which triangles are polished (38 degrees) and mended by inserting or removing a vertex (37 degrees).
@@ -99,7 +97,7 @@ private:
   static constexpr std::size_t least_insertions = 20;
 
   // Angles below this are refined even if nobody asks for it. On details of the input finer than the size the pliant
-  // step's budget leaves angles of 18 to 23 degrees; 25 cost 0 to 4 % more vertices there, 28 up to 40 %.
+  // step's budget leaves smaller ones; much larger bounds cost many vertices there.
   static constexpr double mended_angle = 25;
   static constexpr std::size_t angle_growth = 4;
   static constexpr int most_pliant_passes = 6, most_rounds = 8, most_fruitless_batches = 60, most_local_sweeps = 4,
@@ -166,8 +164,7 @@ private:
   void interleave()
   {
     const std::size_t n = mesh_.vertices().size();
-    // With half as many trials as vertices a fractal shore takes an eighth longer, for 8 % fewer angles below 35
-    // degrees.
+    // More trials cost more time than they mend angles.
     pliant_.set_budget(least_insertions + n / 50, 20 * least_insertions + n / 5);
     for (int round = 0; round < most_rounds; ++round) {
       refine_and_polish(round == 0);
@@ -187,9 +184,8 @@ private:
   void refine_and_polish(bool first)
   {
     refine_until_good();
-    // Polishing does what the last relaxation is for, and better: with both, the square at 10k triangles takes 2.6
-    // times as long for the same mesh, and lakes graded towards their shores end with a smallest angle of 6 degrees,
-    // not 12.
+    // Polishing does what the last relaxation is for, and better: both together take longer, and angles on steep
+    // gradients end smaller.
     if (first && !options_.polish) {
       timed(Stage::relaxation, [this] { relax_all(options_.final_move_ratio, options_.final_quadrature); });
       refine_until_good();
@@ -261,8 +257,7 @@ private:
     return !has_given_up_ && refiner_.oversized() == 0 && options_.polish && options_.min_angle > mended_angle;
   }
 
-  /// Goes on for an angle that can be had: where refinement is stuck it leaves angles far below the one asked for. A
-  /// plate with details finer than the size, asked for 35 degrees, ended with 23030 triangles and 9.8 degrees.
+  /// Goes on for an angle that can be had: where refinement is stuck it leaves angles far below the one asked for.
   void give_up_angle()
   {
     has_given_up_ = true;
@@ -297,8 +292,7 @@ private:
     // Relaxation knows sizes only; it would undo what is refined for angles. Polishing follows.
     if (refiner_.oversized() == 0) return;
     if (!near) return relax_all(options_.move_ratio, options_.quadrature);
-    // Where many edges are just short enough, relaxing far around undoes what polishing achieved: with four rings and 8
-    // sweeps a fractal shore takes 24 batches and 5844 Steiner points, with one ring and 4 sweeps 14 batches and 5430.
+    // Where many edges are just short enough, relaxing far around undoes what polishing achieved.
     relax(relaxer_.with_neighbors(fresh), {options_.move_ratio, options_.quadrature, most_local_sweeps});
   }
 

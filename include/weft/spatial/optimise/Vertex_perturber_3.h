@@ -259,9 +259,8 @@ private:
     reach_ = std::sqrt(shortest);
   }
 
-  /// The unit vector of a direction, or of what a patch or crease leaves of it; zero if that is nothing. With
-  /// directions as they are, projected with the places that they lead to, combined ones gain less over random
-  /// ones: 1.08 instead of 1.13 times to 20 degrees on elephant, 1.07 instead of 1.12 on dino.
+  /// The unit vector of a direction, or of what a patch or crease leaves of it; zero if that is nothing. Most of a step
+  /// would be lost if only its end were projected.
   Vector possible_direction(const Point& p, Vector direction) const
   {
     const auto unit = [](const Vector& v) {
@@ -295,8 +294,7 @@ private:
   }
 
   /// Where a vertex near a cell may lie: inside, on the patches and on the creases of its vertices and facets. A facet
-  /// between two creases may have no vertex on its patch: on the narrow walls of turbine's holes, that ended all
-  /// at 18.1 degrees.
+  /// between two creases may have no vertex on its patch.
   std::vector<Vertex_location_3> locations_around(Cell_handle c) const
   {
     std::vector<Vertex_location_3> all = {{3, c->subdomain()}};
@@ -316,8 +314,7 @@ private:
 
   /// As in Alg. 7 the gradients have their turn before chance, but only those steps that have mended more for their
   /// cost than chance has, the best first: late in a run gradients rarely help. On creases there are but two ways to
-  /// go; with directions there, anchor takes 1.15 times as long to 17 degrees, 1.05 times to 20. What random directions
-  /// alone take longer is in doc/measured_3d.md.
+  /// go: directions there only take time.
   void find_places(const Point& origin, int trials, bool at_random)
   {
     places_.clear();
@@ -401,7 +398,7 @@ private:
     if (places_.size() > most_places) places_.resize(most_places);
   }
 
-  /// Random trials that directions play a part in: 24 are worse on elephant and dino, 10 on dino, homer and anchor.
+  /// Random trials that directions play a part in; more are worse.
   static constexpr int guided_trials = 6;
   static constexpr std::size_t most_places = 3;      ///< of the best, how many are tried for good
   static constexpr double cost_of_putting_back = 20; ///< in trials, with the guard's questions

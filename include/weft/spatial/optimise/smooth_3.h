@@ -319,8 +319,7 @@ private:
   }
 
   /// Moves that had to be shortened begin shorter in the next sweep. So do, a little, those of vertices that have
-  /// stayed since they would have turned cells over: cells below 15 degrees after 60 sweeps of elephant, homer, anchor
-  /// with 0.5, 0.7, 0.85 of the step are 124, 184, 121, then 144, 183, 133 and 127, 149, 129.
+  /// stayed since they would have turned cells over.
   void learn_steps()
   {
     auto stayed = stayed_.begin();

@@ -104,8 +104,7 @@ public:
   }
 
   /// To be called when nothing was inserted last: another refiner needn't look at facets and vertices again that are
-  /// good and stay. On the armadillo, looking at all of them takes 5 % of refinement each time. \returns the version of
-  /// the mesh; what is bad counts as changed in it.
+  /// good and stay. \returns the version of the mesh; what is bad counts as changed in it.
   int settle()
   {
     for (const Bad_facet& f : bad_facets_)
@@ -223,8 +222,7 @@ private:
   }
 
   /// When no facet is bad by what its axis meets, or nothing can be done about it, those that are new: their centers
-  /// and the middles of their sides may be far from the surface. On the bear for 0.001 that brings its distance
-  /// from 2.3 bounds to 1.5 with 0.3 % more vertices (CGAL: 2.0).
+  /// and the middles of their sides may be far from the surface.
   void look_again()
   {
     if constexpr (!Restricted::Oracle::labels_first) {
@@ -414,7 +412,7 @@ private:
     const Zone_result result = find_near(image.point, f);
     if (result != Zone_result::found) return failure(result);
     const double apart = CGAL::to_double(CGAL::squared_distance(Measure::vertex(f, across)->point(), image.point));
-    // Pairs that all but exist: of 0.05 to 0.25, 0.15 leaves the fewest bad elements beside knife edges.
+    // Pairs that all but exist; this leaves the fewest bad elements beside knife edges.
     if (chooser_.nearest_in(chosen_[used_].zone) <
         (std::max)(topology_floor * topology_floor * squared_floor_, 0.15 * 0.15 * apart))
       return Choice::impossible;
@@ -617,16 +615,15 @@ private:
   /// come out right is luck at every scale, so it takes a few more halvings than distances do.
   static constexpr double topology_floor = 0.1;
 
-  /// Facets may be farther from the surface than the approximation bound, which is about Steiner points: with 2 / 1.8 /
-  /// 1.6 / 1.4 the bear's distance is 1.8, 1.7, 1.5, 1.5 bounds, 0.1 to 1 % more vertices for each step.
+  /// Facets may be farther from the surface than the approximation bound, which is about Steiner points. Less takes
+  /// more vertices and brings the surface no nearer.
   static constexpr double deviation_tolerance = 1.6;
 
   static constexpr double least_acute_floor = 1e-4;
   static constexpr int most_steps = 3;
 
-  /// Cells tried in vain that end a batch, beside those for each of its vertices. In a wedge of one degree a batch
-  /// would try 8000 to insert four, and refinement take 25 s instead of 7; elsewhere it is mostly far fewer (armadillo:
-  /// 16 for each).
+  /// Cells tried in vain that end a batch, beside those for each of its vertices. In sharp wedges a batch would try
+  /// thousands to insert a few; elsewhere it is mostly far fewer.
   static constexpr std::size_t in_vain_at_least = 200, in_vain_for_each = 100;
 
   static constexpr std::size_t choices = 20; // Tournois 2009, sec. 3.2.1.4

@@ -91,8 +91,7 @@ public:
   }
 
   /// Copies the triangulation to where vertices and cells lie in memory in the spatial order, after refinement has
-  /// strewn them. Handles don't survive, ids do. Takes 0.10 to 0.18 of the time of building it; a first sweep of
-  /// smoothing then takes a fifth less.
+  /// strewn them. Handles don't survive, ids do. It pays before the first sweep of smoothing.
   void sort_in_memory()
   {
     internal::Ordered_copy_3<Triangulation> copy = internal::copy_in_order(*tr_, vertices_, spatial_order());
@@ -428,11 +427,10 @@ public:
   }
 
 private:
-  /// Part of the vertices to move one by one rather than to build anew. A vertex takes 40 us by itself and 3 us in a
-  /// new triangulation, which flips needn't then have mended.
+  /// Part of the vertices to move one by one rather than to build anew: a vertex by itself takes more than ten times as
+  /// long as in a new triangulation.
   static constexpr double most_alone = 0.05;
-  /// The same where those vertices may as well stay. A first sweep of smoothing leaves 12 to 23 per cent of them; its
-  /// flips, 1.3 a vertex, take half as long as building anew.
+  /// The same where those vertices may as well stay: flips then take less time than building anew.
   static constexpr double most_staying = 0.5;
 
   void insert_box()
