@@ -7,14 +7,14 @@
 #include "surface_fixtures.h"
 
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/check_restricted_3.h>
-#include <weft/spatial/coarsen_3.h>
-#include <weft/spatial/Deviation_3.h>
-#include <weft/spatial/Dynamic_sizing_3.h>
-#include <weft/spatial/hausdorff_3.h>
-#include <weft/spatial/quality_3.h>
-#include <weft/spatial/smooth_3.h>
-#include <weft/spatial/smoothers_3.h>
+#include <weft/spatial/criteria/Deviation_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/quality_3.h>
+#include <weft/spatial/optimise/coarsen_3.h>
+#include <weft/spatial/optimise/Dynamic_sizing_3.h>
+#include <weft/spatial/optimise/smooth_3.h>
+#include <weft/spatial/optimise/smoothers_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 
@@ -92,8 +92,8 @@ struct Ring
     for (const auto v : triangulation.finite_vertex_handles()) v->set_id(id++);
     for (const auto c : triangulation.all_cell_handles()) c->set_subdomain(0);
     for (const auto c : triangulation.finite_cell_handles()) {
-      c->set_circumcenter(weft::circumcenter_3<K>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
-                                                  c->vertex(3)->point()));
+      c->set_circumcenter(weft::internal::circumcenter_3<K>(c->vertex(0)->point(), c->vertex(1)->point(),
+                                                            c->vertex(2)->point(), c->vertex(3)->point()));
       double z = 0;
       for (int i = 0; i < 4; ++i) z += c->vertex(i)->point().z();
       if (z / 4 < plane) c->set_subdomain(1);
@@ -259,7 +259,7 @@ TEST_CASE("dynamic sizes are K-Lipschitz along edges and the largest that are")
   const Oracle oracle = oracle_of(surfaces::torus(48, 24));
   const auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.3, 0.01), refinement());
   for (const double lipschitz : {0.1, 0.5, 2.}) {
-    weft::Dynamic_sizing_3<Restricted> sizing(lipschitz), free(1e9);
+    weft::internal::Dynamic_sizing_3<Restricted> sizing(lipschitz), free(1e9);
     sizing.update(mesh);
     free.update(mesh); // as good as ungraded
     const Mesh arrays = weft::tetrahedral_mesh(mesh);
@@ -297,7 +297,7 @@ TEST_CASE("after many vertices have moved at once, the triangulation is that of 
   for (const Case& c : cases()) {
     const Oracle oracle = oracle_of(c.surface);
     auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), refinement());
-    weft::Relocation_counts_3 all;
+    weft::internal::Relocation_counts_3 all;
     for (const double part : {1., 0.3, 0.02})
       for (const double step : {0.001, 0.01, 0.1, 0.5}) {
         std::vector<int> ids;
@@ -316,7 +316,7 @@ TEST_CASE("after many vertices have moved at once, the triangulation is that of 
           return all_locations;
         };
         const auto before = locations();
-        const weft::Relocation_counts_3 counts = mesh.relocate(ids, targets);
+        const weft::internal::Relocation_counts_3 counts = mesh.relocate(ids, targets);
         INFO("part " << part << ", step " << step);
         CHECK(counts.in_place + counts.one_by_one + counts.rebuilt + counts.put_back == ids.size());
         CHECK(before == locations());
@@ -351,7 +351,7 @@ TEST_CASE("vertices that may stay do so instead of being moved one by one, and t
         targets.push_back(v->point() + 0.25 * c.size * random_vector(random));
       }
       std::vector<std::size_t> stayed;
-      const weft::Relocation_counts_3 counts = mesh.relocate(ids, targets, &stayed);
+      const weft::internal::Relocation_counts_3 counts = mesh.relocate(ids, targets, &stayed);
       CHECK(counts.one_by_one == 0);
       CHECK(counts.put_back == stayed.size());
       CHECK(std::is_sorted(stayed.begin(), stayed.end()));
@@ -378,7 +378,7 @@ Triangulation random_triangulation(unsigned seed, int n)
 
 TEST_CASE("where flips are stuck, a few cells built anew set them free")
 {
-  weft::Relocation_counts_3 all;
+  weft::internal::Relocation_counts_3 all;
   for (unsigned seed = 0; seed < 12; ++seed) {
     Triangulation tr = random_triangulation(seed, 4000);
     const double step = 0.02 * (1 + seed % 4); // neighbours are 0.07 apart
@@ -388,8 +388,8 @@ TEST_CASE("where flips are stuck, a few cells built anew set them free")
     for (const auto v : tr.finite_vertex_handles())
       if (v->id() >= 0) vertices.push_back(v), targets.push_back(v->point() + step * random_vector(random));
     std::vector<std::size_t> deferred;
-    weft::Relocation_counts_3 counts;
-    weft::Relocator_3<Triangulation> relocator(tr);
+    weft::internal::Relocation_counts_3 counts;
+    weft::internal::Relocator_3<Triangulation> relocator(tr);
     const auto ignore = [](Cell_handle) {};
     relocator.place(vertices, targets, ignore, deferred);
     relocator.restore_delaunay(ignore, counts);
@@ -410,7 +410,7 @@ TEST_CASE("a region of a Delaunay triangulation that is built anew is as it was"
   Triangulation tr = random_triangulation(5, 300);
   const auto before = cells_of(tr);
   std::mt19937 random(6);
-  weft::Region_rebuilder_3<Triangulation> rebuilder(tr);
+  weft::internal::Region_rebuilder_3<Triangulation> rebuilder(tr);
   for (int round = 0; round < 50; ++round) {
     std::vector<Cell_handle> cells;
     for (const auto c : tr.finite_cell_handles())
@@ -716,7 +716,7 @@ TEST_CASE("how far tips and ridges are from a mesh is what brute force says, on 
 {
   visit_rough_spheres(67, [](const Surface& surface, const Oracle& oracle) {
     const auto result = weft::make_mesh_3(oracle, criteria_of(0.4, 0.01), refinement());
-    const weft::Deviation_3<Restricted> deviation(result.mesh);
+    const weft::internal::Deviation_3<Restricted> deviation(result.mesh);
     double height = 0;
     for (const auto& f : result.mesh.facets())
       if (f.cell != Cell_handle()) height = (std::max)(height, std::sqrt(deviation.of(f).height));

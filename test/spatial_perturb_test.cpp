@@ -6,12 +6,12 @@
 #include "surface_fixtures.h"
 
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/check_criteria_3.h>
-#include <weft/spatial/check_restricted_3.h>
-#include <weft/spatial/features_3.h>
-#include <weft/spatial/hausdorff_3.h>
-#include <weft/spatial/perturb_slivers_3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/spatial/criteria/check_criteria_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/optimise/perturb_slivers_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
 
@@ -33,7 +33,7 @@ using Oracle = weft::Polyhedral_oracle_3<K>;
 using Criteria = weft::Criteria_3<K>;
 using Mesh = weft::Tetrahedral_mesh_3<K>;
 using Restricted = weft::Restricted_delaunay_3<Oracle>;
-using Perturber = weft::Vertex_perturber_3<Restricted>;
+using Perturber = weft::internal::Vertex_perturber_3<Restricted>;
 
 Oracle oracle_of(const Surface& surface, double angle = 60)
 {
@@ -120,18 +120,18 @@ TEST_CASE("gradients of volume and circumradius are what differences say")
   std::mt19937 random(1);
   for (int k = 0; k < 200; ++k) {
     const auto [v, a, b, c] = random_tetrahedron(random);
-    const Vector volume = weft::gradient_of_volume(v, a, b, c);
+    const Vector volume = weft::internal::gradient_of_volume(v, a, b, c);
     const Vector expected_volume = central_difference(
         v, [&, &a = a, &b = b, &c = c](const Point& p) { return std::abs(CGAL::volume(p, a, b, c)); });
     CHECK(length(volume - expected_volume) <= 1e-6 * length(volume));
-    const Vector radius = weft::gradient_of_squared_radius(v, a, b, c, CGAL::circumcenter(v, a, b, c));
+    const Vector radius = weft::internal::gradient_of_squared_radius(v, a, b, c, CGAL::circumcenter(v, a, b, c));
     const Vector expected_radius =
         central_difference(v, [&, &a = a, &b = b, &c = c](const Point& p) { return CGAL::squared_radius(p, a, b, c); });
     CHECK(length(radius - expected_radius) <= 1e-4 * (length(radius) + 1e-3));
   }
   const Point a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), flat(1, 1, 0);
-  CHECK(length(weft::gradient_of_volume(flat, a, b, c)) == 0);
-  CHECK(length(weft::gradient_of_squared_radius(flat, a, b, c, Point(0, 0, 1))) == 0);
+  CHECK(length(weft::internal::gradient_of_volume(flat, a, b, c)) == 0);
+  CHECK(length(weft::internal::gradient_of_squared_radius(flat, a, b, c, Point(0, 0, 1))) == 0);
 }
 
 TEST_CASE("extreme dihedral angles are those between the facets")
@@ -156,12 +156,12 @@ TEST_CASE("extreme dihedral angles are those between the facets")
         largest = std::min(largest, cosine);
       }
     const bool positive = CGAL::orientation(a, b, c, d) == CGAL::POSITIVE;
-    const auto found =
-        positive ? weft::cosines_of_extreme_dihedrals(a, b, c, d) : weft::cosines_of_extreme_dihedrals(b, a, c, d);
+    const auto found = positive ? weft::internal::cosines_of_extreme_dihedrals(a, b, c, d)
+                                : weft::internal::cosines_of_extreme_dihedrals(b, a, c, d);
     CHECK(found.smallest == Approx(smallest).margin(1e-9));
     CHECK(found.largest == Approx(largest).margin(1e-9));
-    const auto inverted =
-        positive ? weft::cosines_of_extreme_dihedrals(b, a, c, d) : weft::cosines_of_extreme_dihedrals(a, b, c, d);
+    const auto inverted = positive ? weft::internal::cosines_of_extreme_dihedrals(b, a, c, d)
+                                   : weft::internal::cosines_of_extreme_dihedrals(a, b, c, d);
     CHECK(inverted.smallest == 1);
     CHECK(inverted.largest == -1);
   }
@@ -174,12 +174,12 @@ TEST_CASE("circumcenters of cells don't hang on the order of the vertices")
   std::array<std::size_t, 4> order = {0, 1, 2, 3};
   for (const auto c : result.mesh.triangulation().finite_cell_handles()) {
     if (c->subdomain() == 0) continue;
-    const Point center = weft::circumcenter_of_cell_3<K>(c);
+    const Point center = weft::internal::circumcenter_of_cell_3<K>(c);
     std::array<Point, 4> p;
     for (std::size_t i = 0; i < 4; ++i) p[order[i]] = c->vertex(static_cast<int>(i))->point();
     std::next_permutation(order.begin(), order.end());
     std::sort(p.begin(), p.end());
-    CHECK(center == weft::circumcenter_3<K>(p[0], p[1], p[2], p[3]));
+    CHECK(center == weft::internal::circumcenter_3<K>(p[0], p[1], p[2], p[3]));
     CHECK(center == c->circumcenter());
   }
 }
@@ -192,8 +192,8 @@ TEST_CASE("vertices on creases may be taken away and put back or left out, and e
   REQUIRE(mesh.creases().edges().size() > 10);
   std::mt19937 random(3);
   const auto criteria = criteria_of(0.4, 0.02);
-  weft::Criteria_guard_3<Restricted> guard(mesh, criteria);
-  weft::Perturbation_judge_3<Restricted> judge(mesh, guard);
+  weft::internal::Criteria_guard_3<Restricted> guard(mesh, criteria);
+  weft::internal::Perturbation_judge_3<Restricted> judge(mesh, guard);
   for (int k = 0; k < 60; ++k) {
     const int id = static_cast<int>(random() % mesh.vertices().size());
     const auto v = mesh.vertices()[static_cast<std::size_t>(id)];
@@ -230,7 +230,7 @@ TEST_CASE("moves, insertions and removals can be undone to the last cell")
     for (const auto v : mesh.vertices()) points.push_back(v->point());
     weft::Perturb_options_3 options;
     weft::Perturb_report_3 report;
-    weft::Criteria_guard_3<Restricted> guard(mesh, criteria);
+    weft::internal::Criteria_guard_3<Restricted> guard(mesh, criteria);
     Perturber perturber(mesh, guard, options, report);
     perturber.set_bound(std::cos(0.1));
     perturber.set_kick_bound(std::cos(0.01));
@@ -276,7 +276,7 @@ TEST_CASE("vertices are also inserted on patches that have none yet, but facets 
   REQUIRE(bare.size() == 4);
   weft::Perturb_options_3 options;
   weft::Perturb_report_3 report;
-  weft::Criteria_guard_3<Restricted> guard(mesh, criteria);
+  weft::internal::Criteria_guard_3<Restricted> guard(mesh, criteria);
   Perturber perturber(mesh, guard, options, report);
   std::size_t reached = 0;
   for (const int patch : bare) {

@@ -6,8 +6,8 @@
 #ifndef WEFT_DOC_DOMAIN_ORACLE_3_H
 #define WEFT_DOC_DOMAIN_ORACLE_3_H
 
-#include <weft/spatial/Feature_incidence_3.h>
-#include <weft/spatial/oracle_hits_3.h>
+#include <weft/spatial/surface/Feature_incidence_3.h>
+#include <weft/spatial/domain/oracle_hits_3.h>
 
 #include <CGAL/Bbox_3.h>
 

@@ -6,7 +6,7 @@
 #ifndef WEFT_DOC_SIZING_FIELD_H
 #define WEFT_DOC_SIZING_FIELD_H
 
-#include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/visitor.h>
 
 #include <utility>

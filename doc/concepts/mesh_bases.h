@@ -6,8 +6,8 @@
 #ifndef WEFT_DOC_MESH_BASES_H
 #define WEFT_DOC_MESH_BASES_H
 
-#include <weft/planar/Triangulation_2.h>
-#include <weft/spatial/Tetrahedral_mesh_3.h>
+#include <weft/planar/triangulation/Mesh_triangulation_2.h>
+#include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <array>
 #include <cstddef>

@@ -9,9 +9,9 @@
 #define WEFT_MAKE_C3T3_H
 
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/cgal_criteria_3.h>
-#include <weft/spatial/Mesh_domain_oracle_3.h>
-#include <weft/spatial/to_c3t3.h>
+#include <weft/spatial/cgal/cgal_criteria_3.h>
+#include <weft/spatial/cgal/Mesh_domain_oracle_3.h>
+#include <weft/spatial/cgal/to_c3t3.h>
 
 #include <cmath>
 
@@ -42,7 +42,7 @@ C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria,
   // In diagonals. Creases may part at small angles; what else is as small are steps of images, at which the search for
   // a manifold boundary doesn't end by itself.
   const double smallest_detail = oracle.number_of_creases() > 0 ? 1e-4 : 1e-3;
-  const auto own_criteria = cgal_criteria_3<C3t3>(criteria, oracle);
+  const auto own_criteria = internal::cgal_criteria_3<C3t3>(criteria, oracle);
   Mesh_options_3 own_options = options;
   const auto b = oracle.bbox();
   if (options.size_floor == 0)

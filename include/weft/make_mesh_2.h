@@ -11,8 +11,8 @@
 #define WEFT_MAKE_MESH_2_H
 
 #include <weft/options.h>
-#include <weft/planar/Planar_mesher_2.h>
-#include <weft/planar/Triangulation_2.h>
+#include <weft/planar/run/Planar_mesher_2.h>
+#include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/report.h>
 #include <weft/sizing/Uniform_sizing.h>
 
@@ -35,7 +35,7 @@ template <class Cdt, class Sizing>
 Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
 {
   options.check();
-  return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
+  return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
 }
 
 /// Relaxes an existing mesh: vertices without constraints move to better places, those on constraints stay, nothing is
@@ -46,7 +46,7 @@ template <class Cdt, class Sizing>
 Mesh_report_2 relax_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
 {
   options.check();
-  return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
+  return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
 }
 
 } // namespace weft

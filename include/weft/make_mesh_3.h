@@ -14,11 +14,11 @@
 
 #include <weft/options.h>
 #include <weft/report.h>
-#include <weft/spatial/Criteria_3.h>
-#include <weft/spatial/extract_mesh_3.h>
-#include <weft/spatial/Polyhedral_oracle_3.h>
-#include <weft/spatial/Restricted_delaunay_3.h>
-#include <weft/spatial/Spatial_mesher_3.h>
+#include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/domain/Polyhedral_oracle_3.h>
+#include <weft/spatial/restricted/extract_mesh_3.h>
+#include <weft/spatial/restricted/Restricted_delaunay_3.h>
+#include <weft/spatial/run/Spatial_mesher_3.h>
 
 #include <utility>
 
@@ -45,7 +45,7 @@ Make_mesh_result_3<Oracle> make_mesh_3(const Oracle& oracle, const Criteria_3<ty
 {
   criteria.check();
   options.check();
-  Spatial_mesher_3<Oracle> mesher(oracle, criteria, options);
+  internal::Spatial_mesher_3<Oracle> mesher(oracle, criteria, options);
   Mesh_report_3 report = mesher.run();
   return {mesher.take_mesh(), std::move(report)};
 }

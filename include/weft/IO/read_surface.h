@@ -9,7 +9,7 @@
 #include <weft/IO/internal/surface_ply.h>
 #include <weft/IO/internal/surface_stl.h>
 #include <weft/IO/internal/surface_text_formats.h>
-#include <weft/spatial/Polygon_soup_3.h>
+#include <weft/spatial/surface/Polygon_soup_3.h>
 
 #include <CGAL/number_utils.h>
 
