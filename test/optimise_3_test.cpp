@@ -7,14 +7,14 @@
 #include "surface_fixtures.h"
 
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/restricted/check_restricted_3.h>
-#include <weft/spatial/optimise/coarsen_3.h>
 #include <weft/spatial/criteria/Deviation_3.h>
-#include <weft/spatial/optimise/Dynamic_sizing_3.h>
 #include <weft/spatial/mesh/hausdorff_3.h>
 #include <weft/spatial/mesh/quality_3.h>
+#include <weft/spatial/optimise/coarsen_3.h>
+#include <weft/spatial/optimise/Dynamic_sizing_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
 #include <weft/spatial/optimise/smoothers_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 
@@ -92,8 +92,8 @@ struct Ring
     for (const auto v : triangulation.finite_vertex_handles()) v->set_id(id++);
     for (const auto c : triangulation.all_cell_handles()) c->set_subdomain(0);
     for (const auto c : triangulation.finite_cell_handles()) {
-      c->set_circumcenter(weft::internal::circumcenter_3<K>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
-                                                  c->vertex(3)->point()));
+      c->set_circumcenter(weft::internal::circumcenter_3<K>(c->vertex(0)->point(), c->vertex(1)->point(),
+                                                            c->vertex(2)->point(), c->vertex(3)->point()));
       double z = 0;
       for (int i = 0; i < 4; ++i) z += c->vertex(i)->point().z();
       if (z / 4 < plane) c->set_subdomain(1);

@@ -7,11 +7,11 @@
 
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/criteria/check_criteria_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/restricted/check_restricted_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
-#include <weft/spatial/mesh/hausdorff_3.h>
-#include <weft/spatial/optimise/perturb_slivers_3.h>
-#include <weft/spatial/mesh/validate_3.h>
 
 #include <catch2/catch.hpp>
 
@@ -156,12 +156,12 @@ TEST_CASE("extreme dihedral angles are those between the facets")
         largest = std::min(largest, cosine);
       }
     const bool positive = CGAL::orientation(a, b, c, d) == CGAL::POSITIVE;
-    const auto found =
-        positive ? weft::internal::cosines_of_extreme_dihedrals(a, b, c, d) : weft::internal::cosines_of_extreme_dihedrals(b, a, c, d);
+    const auto found = positive ? weft::internal::cosines_of_extreme_dihedrals(a, b, c, d)
+                                : weft::internal::cosines_of_extreme_dihedrals(b, a, c, d);
     CHECK(found.smallest == Approx(smallest).margin(1e-9));
     CHECK(found.largest == Approx(largest).margin(1e-9));
-    const auto inverted =
-        positive ? weft::internal::cosines_of_extreme_dihedrals(b, a, c, d) : weft::internal::cosines_of_extreme_dihedrals(a, b, c, d);
+    const auto inverted = positive ? weft::internal::cosines_of_extreme_dihedrals(b, a, c, d)
+                                   : weft::internal::cosines_of_extreme_dihedrals(a, b, c, d);
     CHECK(inverted.smallest == 1);
     CHECK(inverted.largest == -1);
   }

@@ -360,7 +360,7 @@ private:
   const Smooth_options_3& options_;
   const Smoother& smoother_;
   Sizing sizing_;
-  double damping_ = 1;                  ///< part of the way that all vertices go
+  double damping_ = 1;                     ///< part of the way that all vertices go
   std::vector<double> steps_;              ///< by id: the same for each of them
   std::vector<Cell_handle> cells_, stars_; ///< all finite cells; those around each vertex, by id
   std::vector<std::size_t> first_;         ///< of each vertex in `stars_`
