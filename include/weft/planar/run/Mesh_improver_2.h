@@ -26,6 +26,7 @@
 #include <weft/planar/working/Working_mesh_2.h>
 
 #include <CGAL/spatial_sort.h>
+#include <CGAL/Unique_hash_map.h>
 
 #include <algorithm>
 #include <array>
