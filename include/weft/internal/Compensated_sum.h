@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A sum of many doubles whose error doesn't grow with their number.
+//
 // Not meant for users.
 
 #ifndef WEFT_INTERNAL_COMPENSATED_SUM_H
