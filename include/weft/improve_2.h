@@ -14,6 +14,7 @@
 #include <weft/errors.h>
 #include <weft/planar/mesh/assemble_mesh_2.h>
 #include <weft/planar/mesh/quality_2.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
 #include <weft/planar/run/Improve_options_2.h>
 #include <weft/planar/run/Mesh_improver_2.h>

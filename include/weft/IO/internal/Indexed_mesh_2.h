@@ -8,6 +8,7 @@
 
 #include <weft/planar/graph/Constraint_markers.h>
 #include <weft/planar/graph/mark_domain.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 

@@ -7,12 +7,13 @@
 #define WEFT_PLANAR_CHECK_CHECK_DOMAIN_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/Compensated_sum.h>
 #include <weft/planar/check/check_conformity_2.h>
 #include <weft/planar/check/Validity_2.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/graph/Pslg_2.h>
-#include <weft/planar/mesh/quality_2.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 
 #include <weft/spatial/criteria/bad_elements_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/restricted/Vertex_transaction_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -67,8 +68,9 @@ std::size_t drop_vertices(const std::vector<Ball_3<typename Restricted::Kernel>>
       dropped.push_back(v);
   if (2 * dropped.size() > mesh.vertices().size()) return 0;
   for (const auto v : dropped) {
-    const int id = v->id();
-    mesh.leave_out(id, mesh.take_away(v));
+    Vertex_transaction_3<Restricted> change(mesh, v);
+    change.leave_out();
+    change.commit();
   }
   return dropped.size();
 }

@@ -21,6 +21,7 @@
 #include <weft/spatial/refine/seed_lattice_3.h>
 #include <weft/spatial/refine/Vertex_set_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
+#include <weft/spatial/restricted/Mesh_relocation_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
 #include <weft/spatial/run/report_3.h>
 
@@ -327,7 +328,7 @@ private:
   {
     if (!options_.coarsen && options_.smoothing_sweeps == 0) return true;
     begin_stage("sorting in memory", Stage::polishing);
-    mesh_.sort_in_memory();
+    sort_in_memory(mesh_);
     report_.refined_smallest_dihedral = smallest_dihedral();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     return !initial_ || refine_to_final_shapes();
