@@ -257,8 +257,7 @@ private:
     // Relaxation knows sizes only; it would undo what is refined for angles. Polishing follows.
     if (sizes_hold()) return;
     if (!near) return relax_all(options_.move_ratio, options_.quadrature);
-    // Where many edges are just short enough, relaxing far around undoes what polishing achieved: with four rings and 8
-    // sweeps a fractal shore takes 24 batches and 5844 Steiner points, with one ring and 4 sweeps 14 batches and 5430.
+    // Where many edges are just short enough, relaxing far around undoes what polishing achieved.
     relax(optimiser_.with_neighbors(fresh), {options_.move_ratio, options_.quadrature, most_local_sweeps});
   }
 
