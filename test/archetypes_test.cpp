@@ -13,8 +13,8 @@
 #include <weft/make_mesh_2.h>
 #include <weft/make_mesh_3.h>
 #include <weft/planar/check/validate_2.h>
-#include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/optimise/smooth_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
 

@@ -10,17 +10,17 @@
 #include <weft/IO/read_surface.h>
 #include <weft/make_mesh_3.h>
 #include <weft/mesh_surface_3.h>
-#include <weft/spatial/criteria/check_criteria_3.h>
-#include <weft/spatial/restricted/check_restricted_3.h>
-#include <weft/spatial/mesh/dihedral_angles_3.h>
-#include <weft/spatial/surface/piecewise_smooth_complex.h>
-#include <weft/spatial/mesh/hausdorff_3.h>
 #include <weft/spatial/criteria/Badness_measure_3.h>
+#include <weft/spatial/criteria/check_criteria_3.h>
+#include <weft/spatial/mesh/dihedral_angles_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/validate_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/refine/Batch_refiner_3.h>
-#include <weft/spatial/refine/Vertex_set_3.h>
 #include <weft/spatial/refine/Steiner_chooser_3.h>
-#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/refine/Vertex_set_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
 
@@ -493,8 +493,8 @@ TEST_CASE("slivers are perturbed away beside what the input's angles make imposs
     for (const auto& c : mesh.cells) {
       const auto at_edge = [&](std::size_t v) { return std::hypot(mesh.points[v].x(), mesh.points[v].y()) < 0.5; };
       if (std::any_of(c.begin(), c.end(), at_edge)) continue;
-      const auto x = weft::internal::cosines_of_extreme_dihedrals(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]],
-                                                        mesh.points[c[3]]);
+      const auto x = weft::internal::cosines_of_extreme_dihedrals(mesh.points[c[0]], mesh.points[c[1]],
+                                                                  mesh.points[c[2]], mesh.points[c[3]]);
       n += weft::internal::degrees_of_cosine(x.smallest) < 12;
     }
     return n;
@@ -716,8 +716,9 @@ TEST_CASE("the Steiner point chosen for a cell mends no less than its circumcent
       const weft::internal::Badness_measure_3<Restricted> measure(mesh, criteria, 1);
       weft::internal::Steiner_chooser_3<Restricted> chooser(mesh, measure, 1e-12);
       Zone zone;
-      const auto result = choosing ? chooser.choose(c, batch, zone)
-                                   : weft::internal::find_conflict_zone(mesh.triangulation(), c->circumcenter(), c, batch, zone);
+      const auto result =
+          choosing ? chooser.choose(c, batch, zone)
+                   : weft::internal::find_conflict_zone(mesh.triangulation(), c->circumcenter(), c, batch, zone);
       is_comparable = is_comparable && result == weft::internal::Zone_result::found && !chooser.encroached_facet(zone);
       if (result != weft::internal::Zone_result::found) continue;
       if (choosing) {
@@ -751,8 +752,8 @@ TEST_CASE("a refiner that doesn't look again at what another has settled does th
       weft::Restricted_delaunay_3<Oracle> mesh(oracle);
       mesh.insert(coarse.points, coarse.locations);
       const auto refine = [&](bool with_cells, int settled) {
-        weft::internal::Batch_refiner_3<weft::Restricted_delaunay_3<Oracle>> refiner(mesh, criteria, 1, with_cells, 1e-3, 5,
-                                                                           settled);
+        weft::internal::Batch_refiner_3<weft::Restricted_delaunay_3<Oracle>> refiner(mesh, criteria, 1, with_cells,
+                                                                                     1e-3, 5, settled);
         for (int batch = 0; batch < 200 && refiner.refine(100000).inserted > 0;) ++batch;
         return refiner.settle();
       };
@@ -784,7 +785,8 @@ TEST_CASE("a mesh is built again from its vertices, and what is around bad eleme
   CHECK(weft::internal::drop_vertices(balls, 1000, again) == 0);
   CHECK(weft::internal::vertices_of(again).points == all.points);
   balls.resize(5);
-  const std::size_t dropped = weft::internal::drop_vertices(balls, 1.01, again); // the vertices of an element lie on its ball
+  const std::size_t dropped =
+      weft::internal::drop_vertices(balls, 1.01, again); // the vertices of an element lie on its ball
   CHECK(weft::check_restricted_3(again).ok());
   const auto fewer = weft::internal::vertices_of(again);
   CHECK(dropped > 0);

@@ -267,12 +267,12 @@ inline void run_sweep_costs(const Spatial_domain& domain, const Bounds& bounds, 
   const auto criteria = weft_criteria(domain.input(), bounds);
   Weft_mesh mesh = refined_mesh(domain, bounds), other = refined_mesh(domain, bounds);
   m.vertices = static_cast<double>(mesh.vertices().size());
-  mesh.sort_in_memory();
-  other.sort_in_memory();
+  weft::internal::sort_in_memory(mesh);
+  weft::internal::sort_in_memory(other);
   m.late = last_sweeps_cost(other, mesh, criteria, 35, 5);
   mesh = refined_mesh(domain, bounds);
   const double start = user_seconds();
-  mesh.sort_in_memory();
+  weft::internal::sort_in_memory(mesh);
   const double seconds = user_seconds() - start;
   m.first = first_sweep_cost(mesh, criteria);
   m.ordering = seconds / m.first.delaunay;

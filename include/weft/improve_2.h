@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE with a planar triangle mesh that you have. `improve_2()` raises its smallest angles: the mesh becomes a
+// START HERE with a planar triangle mesh that you have: `improve_2()` raises its smallest angles. The mesh becomes a
 // constrained Delaunay mesh of the same domain and regions with about the same vertices. The boundary slides along
 // itself, or every edge of it stays.
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE with a tetrahedral mesh that you have. `improve_3()` raises its smallest dihedral angles: with a boundary
+// START HERE with a tetrahedral mesh that you have: `improve_3()` raises its smallest dihedral angles. With a boundary
 // that slides on itself the mesh becomes a Delaunay mesh of the same domain with about the same vertices; with a fixed
 // boundary every boundary triangle stays.
 //

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE coming from CGAL's Mesh_3. `weft::make_mesh_3<C3t3>(domain, criteria)` takes what CGAL's function of that
-// name takes, any MeshDomain_3 and MeshCriteria_3, and returns what it returns:
+// START HERE coming from CGAL's Mesh_3: `weft::make_mesh_3<C3t3>(domain, criteria)` has the arguments and the result of
+// CGAL's function of that name. The domain may be any MeshDomain_3, the criteria any MeshCriteria_3.
 //
 //   const C3t3 c3t3 = weft::make_mesh_3<C3t3>(domain, criteria);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE in 2D. `make_mesh_2()` turns a constrained Delaunay triangulation into a mesh of large, well-shaped
+// START HERE in 2D: `make_mesh_2()` turns a constrained Delaunay triangulation into a mesh of large, well-shaped
 // triangles whose edges respect a sizing field, by interleaving refinement with relaxation (Tournois 2009, chapter 2,
-// Alg. 2). `relax_2()` improves a mesh that somebody else made without inserting anything.
+// Alg. 2). `relax_2()` moves the vertices of a mesh of any origin to better places and inserts none.
 //
 //   weft::Mesh_triangulation_2<> cdt;               // insert points and constraints, or weft::insert_pslg()
 //   const auto report = weft::make_mesh_2(cdt, weft::Uniform_sizing<>(0.1));

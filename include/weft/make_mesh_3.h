@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE in 3D. `make_mesh_3()` fills the domain behind an oracle with tetrahedra that satisfy size, approximation,
+// START HERE in 3D: `make_mesh_3()` fills the domain behind an oracle with tetrahedra that satisfy size, approximation,
 // shape and topology criteria, by batches of Delaunay refinement (Tournois 2009, sec. 3.2).
 //
 //   const auto surface = weft::IO::read_surface<K>("elephant.off");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE in 3D with a surface whose sharp edges nobody has listed. `mesh_surface_3()` is `make_mesh_3()` for the
-// domain that a surface bounds, but doesn't insist on creases that were found by angle: scanned surfaces have folds
-// that look sharp here and there, and that no mesh of the asked size and shape can follow.
+// START HERE in 3D with a surface whose sharp edges aren't listed: `mesh_surface_3()` is `make_mesh_3()` for the domain
+// inside a surface, and gives up creases found by angle that keep the criteria from holding. Scanned surfaces have
+// folds that look sharp, but that no mesh of the asked size and shape can follow.
 //
 //   const auto surface = weft::IO::read_surface<K>("armadillo.off");
 //   weft::Criteria_3<K> criteria;

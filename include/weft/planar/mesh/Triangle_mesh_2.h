@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// A planar triangle mesh in arrays: what `assemble_mesh_2()` makes of anybody's triangles, `improve_2()` improves and
-// the writers take.
+// A planar triangle mesh in arrays: what `assemble_mesh_2()` returns, `improve_2()` improves and the writers take.
 
 #ifndef WEFT_PLANAR_MESH_TRIANGLE_MESH_2_H
 #define WEFT_PLANAR_MESH_TRIANGLE_MESH_2_H

@@ -207,9 +207,8 @@ private:
 
   /// Polishes the vertices. Returns whether the cost of the triangles around them falls below a part of what it was;
   /// gives up when that is unlikely: where the first round leaves 12 times the cost, or where one more gain like the
-  /// last one would not do. That saves two thirds of the rounds and loses 3 to 5 % of the changes that would have been
-  /// kept in the end; so it isn't done where few triangles are bad: an airfoil at 100k triangles then ends with a
-  /// smallest angle of 34.0 degrees, not 29.7.
+  /// last one would not do. That saves most rounds, but loses a few changes that would have been kept in the end; so it
+  /// isn't done where few triangles are bad.
   bool settle(const std::vector<Vertex_handle>& vertices, double old_cost, double worth)
   {
     pay();

@@ -244,8 +244,7 @@ private:
   template <std::size_t N>
   Point compass(Vertex_handle v, const std::array<std::array<double, 2>, N>& directions, double& lowest) const
   {
-    // Smaller steps and gains are left to later visits: a fourth step length and gains from 0.1 % on take half as long
-    // again on a fractal shore, for 1 % fewer vertices and angles as good.
+    // Smaller steps and gains are left to later visits: they cost time and gain little.
     constexpr int halvings = 3;
     constexpr double gain = 0.95;
     double x = CGAL::to_double(v->point().x()), y = CGAL::to_double(v->point().y());

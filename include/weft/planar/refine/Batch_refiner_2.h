@@ -40,10 +40,9 @@ public:
   /// Below this largest ratio a batch is small and its elements are independent.
   static constexpr double near_goal = 1.6;
 
-  /// While the largest ratio is above, elements up to this ratio are left to the small batches that follow. With 1
-  /// a single long edge has all elements refined that are hardly too long, too, which relaxation and polishing would
-  /// have shortened: on the local feature size of a fractal shore 11126 Steiner points instead of 9259. With 1.3 there
-  /// are 9157, for a tenth more time.
+  /// While the largest ratio is above, elements up to this ratio are left to the small batches that follow. With 1 a
+  /// single long edge has all elements refined that are hardly too long, too, which relaxation and polishing would have
+  /// shortened.
   static constexpr double least_target = 1.2;
 
   /// \param min_angle smallest angle asked for, in degrees; 0 for none.

@@ -7,8 +7,7 @@
 // dislocations, as they must. It follows the frontal point placement of Rebay (J. Comput. Phys. 106, 1993), inside out.
 //
 // Why: refinement by circumcenters leaves a glass, whose longest edges are 1.3 times the mean and so cost 1.7 times the
-// vertices. On the uniform square of 10k triangles batch refinement with relaxation ends at 1.55 times the ideal number
-// of triangles after some 400 sweeps, the crystal at 1.24 after 30.
+// vertices.
 
 #ifndef WEFT_PLANAR_REFINE_CRYSTAL_SEEDER_2_H
 #define WEFT_PLANAR_REFINE_CRYSTAL_SEEDER_2_H
@@ -145,8 +144,8 @@ private:
   };
 
   /// The first point of a room stands above the middle edge of one of its constraints, so that the lattice starts flush
-  /// with it. Of the constraints whose direction suits the whole boundary of the room the longest is taken. A comb
-  /// with vertical teeth ends with 12 % more vertices where the lattice is flush with its back.
+  /// with it. Of the constraints whose direction suits the whole boundary of the room the longest is taken. The longest
+  /// one alone would be the back of a comb, with more vertices along its teeth.
   void start_at_best_constraints()
   {
     const std::size_t rooms = directions_.size();

@@ -85,9 +85,7 @@ public:
 
 private:
   // Lattice spacing and metric length of constrained edges to aim at, in parts of the target. A wider lattice ends with
-  // fewer triangles, but the layer along the constraints takes longer: for spacings of 0.86 / 0.88 / 0.90 / 0.92 / 0.94
-  // the square at 10k triangles has 1.34 / 1.29 / 1.24 / 1.19 / 1.16 times the ideal number of triangles after
-  // 18 / 18 / 20 / 28 / 38 ms, a comb 1.34 / 1.32 / 1.31 / 1.30 / 1.29 times after 66 / 80 / 99 / 141 / 182 ms.
+  // fewer triangles, but the layer along the constraints takes longer.
   static constexpr double lattice_spacing = 0.9, constraint_spacing = 0.9;
 
   static constexpr int most_rounds = 8, most_fruitless_batches = 60, most_local_sweeps = 4;
@@ -167,9 +165,8 @@ private:
   void refine_and_polish(bool first)
   {
     refine_until_good();
-    // Polishing does what the last relaxation is for, and better: with both, the square at 10k triangles takes 2.6
-    // times as long for the same mesh, and lakes graded towards their shores end with a smallest angle of 6 degrees,
-    // not 12.
+    // Polishing does what the last relaxation is for, and better: both together take longer, and angles on steep
+    // gradients end smaller.
     if (first && !options_.polish) {
       timed(Stage::relaxation, [this] { relax_all(options_.final_move_ratio, options_.final_quadrature); });
       refine_until_good();
@@ -260,8 +257,7 @@ private:
     // Relaxation knows sizes only; it would undo what is refined for angles. Polishing follows.
     if (sizes_hold()) return;
     if (!near) return relax_all(options_.move_ratio, options_.quadrature);
-    // Where many edges are just short enough, relaxing far around undoes what polishing achieved: with four rings and 8
-    // sweeps a fractal shore takes 24 batches and 5844 Steiner points, with one ring and 4 sweeps 14 batches and 5430.
+    // Where many edges are just short enough, relaxing far around undoes what polishing achieved.
     relax(optimiser_.with_neighbors(fresh), {options_.move_ratio, options_.quadrature, most_local_sweeps});
   }
 

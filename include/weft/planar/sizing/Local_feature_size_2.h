@@ -48,11 +48,9 @@ public:
   /// \throws Domain_error when a segment names a point that isn't there or a coordinate isn't finite.
   explicit Local_feature_size_2(const Pslg_2<K>& pslg) : features_(pslg) {}
 
-  /// Segments and isolated points with sizes h that are linear on each, such that on all features
-  /// h <= lfs <= h + tolerance * max(h, min_size). Parts where lfs is max_size or more are left out.
-  /// On the inputs tried 1 to 10 sources per segment for a tolerance of 1 %, each for a few queries of O(log n) where
-  /// no point has very many segments: 3 ms for a map of 303 segments, 1 s for 100,000 random ones, with the field's
-  /// tree.
+  /// Segments and isolated points with sizes h that are linear on each, such that on all features h <= lfs <= h +
+  /// tolerance * max(h, min_size). Parts where lfs is max_size or more are left out. Each source costs a few queries of
+  /// O(log n) where no point has very many segments.
   ///
   /// \param tolerance relative error, in (0, 1].
   /// \throws Domain_error when `min_size` is 0 and features meet without sharing a point: lfs is 0 there; or come so

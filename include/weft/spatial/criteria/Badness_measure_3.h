@@ -215,15 +215,12 @@ public:
            (at.dimension == 0 && mesh_->incidence().corner_is_on_crease(at.index, crease));
   }
 
-  /// Tips may stick out farther than the approximation bound, which is about Steiner points: with 1 / 1.5 / 2 the
-  /// armadillo takes 20912 / 18729 / 18338 vertices and lies within 1.9 / 2.0 / 2.8 bounds of its surface (CGAL: 20228
-  /// and 3.3).
+  /// Tips may stick out farther than the approximation bound, which is about Steiner points: less takes many vertices,
+  /// more lets the distance to the surface grow.
   static constexpr double tip_tolerance = 1.5;
 
-  /// The same for points of ridges, between tips, and of sharp edges that aren't creases. With 2.8 / 2.4 / 2.2 for
-  /// ridges, elephant, dino, homer and armadillo lie within 2.4, 2.5, 2.6, 2.3 / 2.3, 2.2, 2.1, 1.7 / 2.1, 1.9, 2.1,
-  /// 1.9 bounds of their surfaces for a thousandth (CGAL: 2.9, 4.0, 2.25, 3.3), the last with 2 % more vertices than
-  /// the first; 2.0 for sharp edges costs the elephant another 5 %.
+  /// The same for points of ridges, between tips, and of sharp edges that aren't creases. Less for ridges costs few
+  /// vertices, less for sharp edges more.
   static constexpr double ridge_tolerance = 2.2, sharp_tolerance = 2.5;
 
   /// A ratio for what is bad or not without a measure.

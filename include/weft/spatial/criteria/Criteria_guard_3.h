@@ -338,8 +338,7 @@ private:
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
   Squared_deviation_3 farthest_;   ///< that facets may be
   double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
-  /// For what lies between the samples of facets. With 0.9 the distance of homer rises by 15 % over a whole run as far
-  /// as it goes.
+  /// For what lies between the samples of facets.
   static constexpr double closer = 0.85;
 };
 

@@ -6,12 +6,9 @@
 // which triangle are decided by exact predicates, rays and segments that graze an edge or a vertex included; the points
 // are rounded to doubles and lie on the boundary up to that rounding.
 //
-// The hierarchies of boxes are weft's own because queries are most of the time of a mesher. Nanoseconds a query on one
-// thread, weft and CGAL 5.5's AABB tree, on the elephant surface of 5558 triangles (benchmark/oracle_throughput):
-// intersections of a segment across the bounding box 294 and 5181, of a short one near the surface 120 and 1165;
-// location near the surface 203 and 796; closest point anywhere 666 and 5236, near the surface 304 and 1962. The
-// hierarchy takes 2 to 3 ms to build, CGAL's 1 to 2. Floats and SSE2 rule out nearly everything; one to three triangles
-// of a query reach doubles or an exact predicate.
+// The hierarchies of boxes are weft's own because queries are most of the time of a mesher: they are 4 to 18 times as
+// fast as CGAL's AABB tree (benchmark/oracle_throughput). Floats and SSE2 rule out nearly everything; one to three
+// triangles of a query reach doubles or an exact predicate.
 
 #ifndef WEFT_SPATIAL_DOMAIN_POLYHEDRAL_ORACLE_3_H
 #define WEFT_SPATIAL_DOMAIN_POLYHEDRAL_ORACLE_3_H
@@ -195,10 +192,8 @@ public:
   }
 
 private:
-  // Degrees. Vertices for a thousandth, as parts of CGAL's, on average over six smooth and six creased models: with
-  // folds from 5 / 10 / 20 degrees on 0.92, 0.93, 0.96. Ridges from 30 degrees on instead of all folds save a quarter
-  // of the time on dense models, and vertices: 7912
-  // instead of 9402 on the elephant for 0.0005, with a tolerance of 2.5.
+  // Degrees. Flatter folds attract to fewer vertices. Measuring ridges alone instead of all folds saves time on dense
+  // models, and vertices.
   static constexpr double fold_angle = 5, ridge_angle = 30, sharp_angle = 75;
 
   static constexpr double acute_angle = 60; // degrees; from there on refinement ends by itself

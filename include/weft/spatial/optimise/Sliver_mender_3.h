@@ -258,7 +258,7 @@ private:
   }
 
   static constexpr int make_room_from = 4, most_effort = 30; ///< efforts
-  // Smallest angle after 16 s: 4 kicks, 12 moves, 6 slivers: elephant 30.7, dino 28.8; 8, 20, 10: 31.2, 29.3.
+  // With these smallest angles rise fastest.
   static constexpr int kicks_per_effort = 8, moves_per_kick = 20;
   static constexpr std::size_t most_pending = 10;
   static constexpr double deepest_kick = 0.3; ///< in parts of the bound, as an angle

@@ -14,6 +14,7 @@
 #include <weft/spatial/optimise/sliver_gradients_3.h>
 #include <weft/spatial/optimise/Success_rates.h>
 #include <weft/spatial/restricted/project_on_location_3.h>
+#include <weft/spatial/restricted/Vertex_transaction_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -41,6 +42,7 @@ public:
   using Cell_handle = typename Restricted::Cell_handle;
   using Vertex_handle = typename Restricted::Vertex_handle;
   using Judge = Perturbation_judge_3<Restricted>;
+  using Transaction = Vertex_transaction_3<Restricted>;
 
   /// When a vertex is to be moved.
   enum class Purpose
@@ -71,16 +73,19 @@ public:
     for (; !log_.empty(); log_.pop_back()) {
       const Change& change = log_.back();
       if (change.kind == Change::insertion) {
-        mesh_.remove_last();
-        continue;
-      }
-      if (change.kind == Change::move) {
-        take(mesh_.take_away(vertex(change.id)));
+        Transaction removal(mesh_, mesh_.vertices().back());
+        removal.leave_out();
+        removal.commit();
+      } else if (change.kind == Change::move) {
+        Transaction move(mesh_, vertex(change.id));
+        take_filling(move);
         judge_.find_zone(change.point, near_);
-        mesh_.put_back(judge_.zone(), change.location, change.id, filling_);
-        continue;
+        move.place(judge_.zone());
+        move.commit();
+      } else {
+        judge_.find_zone(change.point, mesh_.vertices().front()->cell());
+        Transaction(mesh_, judge_.zone(), change.location, change.id).commit();
       }
-      reinsert(change.point, change.location, change.id, mesh_.vertices().front()->cell());
     }
   }
 
@@ -99,23 +104,24 @@ public:
     most_ = Judge::no_good;
     ++report_.tried_vertices;
     is_move_ = true;
-    const Point origin = v->point();
-    take(mesh_.take_away(v));
-    find_places(origin, trials, purpose == Purpose::shake || purpose == Purpose::kick);
+    Transaction change(mesh_, v);
+    take_filling(change);
+    find_places(change.origin(), trials, purpose == Purpose::shake || purpose == Purpose::kick);
     for (const Place& place : places_) {
       if (!judge_.find_zone(place.point, near_)) continue;
-      mesh_.put_back(judge_.zone(), location_, id, filling_);
+      change.place(judge_.zone());
       rates_.spend(place.kind, cost_of_putting_back);
       if (judge_.is_acceptable(report_)) {
         rates_.succeed(place.kind);
         ++(report_.*counter(place.kind));
-        log_.push_back({Change::move, id, origin, location_});
+        log_.push_back({Change::move, id, change.origin(), location_});
+        change.commit();
         return true;
       }
-      take(mesh_.take_away_again(vertex(id)));
+      change.take_out_again();
+      take_filling(change);
     }
-    judge_.find_zone(origin, near_);
-    mesh_.put_back(judge_.zone(), location_, id, filling_);
+    change.roll_back();
     return false;
   }
 
@@ -127,8 +133,7 @@ public:
     const Point center =
         CGAL::centroid(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
     is_move_ = is_guided_ = false;
-    filling_.clear();
-    judge_.set_filling(filling_);
+    judge_.set_filling({});
     near_ = c;
     most_ = enough_ = most;
     limit_ = (std::max)(Judge::measure(c) - Judge::least_gain, most);
@@ -142,14 +147,14 @@ public:
       keep_best_places();
       for (const Place& place : places_) {
         if (!judge_.find_zone(place.point, near_)) continue;
-        mesh_.insert(judge_.zone(), location_);
-        mesh_.update();
+        Transaction change(mesh_, judge_.zone(), location_);
         if (judge_.is_acceptable(report_)) {
           ++report_.insertions;
           log_.push_back({Change::insertion, 0, place.point, location_});
+          change.commit();
           return true;
         }
-        mesh_.remove_last();
+        change.roll_back();
         near_ = mesh_.new_cells().front(); // c died with the insertion
       }
     }
@@ -164,22 +169,19 @@ public:
     location_ = v->location();
     if (mesh_.is_fixed(v)) return false;
     load_star(v);
-    const Point origin = v->point();
-    take(mesh_.take_away(v));
-    if (judge_.judge_filling((std::max)(limit_, most)) == Judge::no_good) {
-      judge_.find_zone(origin, near_);
-      mesh_.put_back(judge_.zone(), location_, id, filling_);
-      return false;
-    }
-    mesh_.leave_out(id, filling_);
-    if (judge_.is_acceptable(report_)) {
+    Transaction change(mesh_, v);
+    take_filling(change);
+    const bool fills_well = judge_.judge_filling((std::max)(limit_, most)) != Judge::no_good;
+    if (fills_well) change.leave_out();
+    if (fills_well && judge_.is_acceptable(report_)) {
       judge_.forget(id); // the number of another vertex now
       judge_.forget(static_cast<int>(mesh_.vertices().size()));
       ++report_.removals;
-      log_.push_back({Change::removal, id, origin, location_});
+      log_.push_back({Change::removal, id, change.origin(), location_});
+      change.commit();
       return true;
     }
-    reinsert(origin, location_, id, mesh_.new_cells().front());
+    change.roll_back();
     return false;
   }
 
@@ -222,21 +224,12 @@ private:
     Vertex_location_3 location;
   };
 
-  void reinsert(const Point& p, const Vertex_location_3& location, int id, Cell_handle near)
-  {
-    judge_.find_zone(p, near);
-    mesh_.insert(judge_.zone(), location);
-    mesh_.update();
-    mesh_.exchange_numbers(id, static_cast<int>(mesh_.vertices().size()) - 1);
-  }
-
   Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
 
-  void take(std::vector<Cell_handle> filling)
+  void take_filling(const Transaction& change)
   {
-    filling_ = std::move(filling);
-    judge_.set_filling(filling_);
-    near_ = filling_.front();
+    judge_.set_filling(change.filling());
+    near_ = change.filling().front();
   }
 
   /// What the star of a vertex is like: its worst cell, the directions that its slivers suggest.
@@ -259,9 +252,8 @@ private:
     reach_ = std::sqrt(shortest);
   }
 
-  /// The unit vector of a direction, or of what a patch or crease leaves of it; zero if that is nothing. With
-  /// directions as they are, projected with the places that they lead to, combined ones gain less over random
-  /// ones: 1.08 instead of 1.13 times to 20 degrees on elephant, 1.07 instead of 1.12 on dino.
+  /// The unit vector of a direction, or of what a patch or crease leaves of it; zero if that is nothing. Most of a step
+  /// would be lost if only its end were projected.
   Vector possible_direction(const Point& p, Vector direction) const
   {
     const auto unit = [](const Vector& v) {
@@ -295,8 +287,7 @@ private:
   }
 
   /// Where a vertex near a cell may lie: inside, on the patches and on the creases of its vertices and facets. A facet
-  /// between two creases may have no vertex on its patch: on the narrow walls of turbine's holes, that ended all
-  /// at 18.1 degrees.
+  /// between two creases may have no vertex on its patch.
   std::vector<Vertex_location_3> locations_around(Cell_handle c) const
   {
     std::vector<Vertex_location_3> all = {{3, c->subdomain()}};
@@ -316,8 +307,7 @@ private:
 
   /// As in Alg. 7 the gradients have their turn before chance, but only those steps that have mended more for their
   /// cost than chance has, the best first: late in a run gradients rarely help. On creases there are but two ways to
-  /// go; with directions there, anchor takes 1.15 times as long to 17 degrees, 1.05 times to 20. What random directions
-  /// alone take longer is in doc/measured_3d.md.
+  /// go: directions there only take time.
   void find_places(const Point& origin, int trials, bool at_random)
   {
     places_.clear();
@@ -401,7 +391,7 @@ private:
     if (places_.size() > most_places) places_.resize(most_places);
   }
 
-  /// Random trials that directions play a part in: 24 are worse on elephant and dino, 10 on dino, homer and anchor.
+  /// Random trials that directions play a part in; more are worse.
   static constexpr int guided_trials = 6;
   static constexpr std::size_t most_places = 3;      ///< of the best, how many are tried for good
   static constexpr double cost_of_putting_back = 20; ///< in trials, with the guard's questions
@@ -424,7 +414,6 @@ private:
   Vector by_radius_, by_volume_;   ///< sums over slivers; once guided, unit vectors or zero
   Cell_handle near_;               ///< a cell near it
   std::vector<Cell_handle> cells_; ///< its star
-  std::vector<Cell_handle> filling_;
   std::vector<Place> places_;
 };
 

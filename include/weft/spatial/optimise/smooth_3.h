@@ -16,6 +16,7 @@
 #include <weft/spatial/optimise/Dynamic_sizing_3.h>
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/optimise/smoothers_3.h>
+#include <weft/spatial/restricted/Mesh_relocation_3.h>
 #include <weft/spatial/restricted/project_on_location_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 
@@ -88,7 +89,7 @@ private:
     std::vector<Point> old;
     for (const int id : ids_) old.push_back(vertex(id)->point());
     stayed_.clear();
-    report_.relocations += mesh_.relocate(ids_, targets_, &stayed_);
+    report_.relocations += internal::relocate(mesh_, ids_, targets_, &stayed_);
     parts_.assign(ids_.size(), 1);
     for (const std::size_t i : stayed_) parts_[i] = 0;
     if (guard_) take_back(old);
@@ -106,7 +107,7 @@ private:
     const double before = report_.energy_after;
     report_.energy_after = energy();
     if (!Smoother::minimises_odt || report_.energy_after <= before) return false;
-    report_.relocations.add_times(mesh_.relocate(ids_, old));
+    report_.relocations.add_times(internal::relocate(mesh_, ids_, old));
     report_.energy_after = before;
     ++report_.undone_sweeps;
     damping_ /= 2;
@@ -245,7 +246,7 @@ private:
         points.push_back(parts_[i] > 0 ? part_of_the_way(old[i], targets_[i], parts_[i], vertex(ids_[i])->location())
                                        : old[i]);
       }
-      report_.relocations.add_times(mesh_.relocate(ids, points));
+      report_.relocations.add_times(internal::relocate(mesh_, ids, points));
       auto next = new_offenders();
       for (const auto& element : bad)
         if (guard_->is_offending(element)) next.push_back(element);
@@ -319,8 +320,7 @@ private:
   }
 
   /// Moves that had to be shortened begin shorter in the next sweep. So do, a little, those of vertices that have
-  /// stayed since they would have turned cells over: cells below 15 degrees after 60 sweeps of elephant, homer, anchor
-  /// with 0.5, 0.7, 0.85 of the step are 124, 184, 121, then 144, 183, 133 and 127, 149, 129.
+  /// stayed since they would have turned cells over.
   void learn_steps()
   {
     auto stayed = stayed_.begin();
@@ -361,7 +361,7 @@ private:
   const Smooth_options_3& options_;
   const Smoother& smoother_;
   Sizing sizing_;
-  double damping_ = 1;                  ///< part of the way that all vertices go
+  double damping_ = 1;                     ///< part of the way that all vertices go
   std::vector<double> steps_;              ///< by id: the same for each of them
   std::vector<Cell_handle> cells_, stars_; ///< all finite cells; those around each vertex, by id
   std::vector<std::size_t> first_;         ///< of each vertex in `stars_`

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Where smoothing wants a vertex to be (Tournois 2009, sec. 3.2.1.5): the smoother concept and its models Natural ODT,
-// ODT and Lloyd. A smoother looks at the cells around a vertex and returns a position that isn't projected yet.
-// Lengths, areas and volumes are measured in the metric of a sizing field that is given at vertices and linear between
-// them, by quadrature of the second degree; a constant field gives the uniform formulas back.
+// Smoothers (Tournois 2009, sec. 3.2.1.5): Natural ODT, ODT and Lloyd. A smoother looks at the cells around a vertex
+// and returns the position that the vertex should have, not projected yet. Lengths, areas and volumes are measured in
+// the metric of a sizing field that is given at vertices and linear between them, by quadrature of the second degree; a
+// constant field gives the uniform formulas back.
 
 #ifndef WEFT_SPATIAL_OPTIMISE_SMOOTHERS_3_H
 #define WEFT_SPATIAL_OPTIMISE_SMOOTHERS_3_H
@@ -204,9 +204,7 @@ auto pull_of_circumcenters(const Context& context, typename Context::Vertex_hand
 /// Other than in the thesis, what is projected on a patch or crease is the mean of that position and of the one that
 /// ODT of the patch's facets or of the crease's edges alone wants, which has the property, too, where the ring is flat
 /// or straight. Volumes say little about where a vertex should slide along the boundary, and what the surface lacks in
-/// regularity becomes slivers below it. Cells
-/// below 10 degrees after 100 free sweeps with a patch's share of 0, a half and one: elephant 52, 23, 93, dino 65, 24,
-/// 100, anchor 36, 22, 45, and 49 with the thesis' formula on creases, too.
+/// regularity becomes slivers below it.
 struct Natural_odt_3
 {
   static constexpr bool moves_boundary = true, minimises_odt = true;

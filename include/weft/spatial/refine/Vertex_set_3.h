@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What it takes to refine a part of a mesh once more from fewer vertices. Beside acute edges that nobody marked,
-// whether refinement comes to an end is luck: the same dinosaur, whose knife edges of 23 degrees stand a thousandth of
-// its length apart, meets all criteria in one run and keeps some bad elements in another, for an approximation a tenth
-// finer. What went wrong there stays, since refinement takes nothing back.
+// whether refinement comes to an end is luck. What went wrong there stays, since refinement takes nothing back.
 
 #ifndef WEFT_SPATIAL_REFINE_VERTEX_SET_3_H
 #define WEFT_SPATIAL_REFINE_VERTEX_SET_3_H
 
 #include <weft/spatial/criteria/bad_elements_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/restricted/Vertex_transaction_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -69,8 +68,9 @@ std::size_t drop_vertices(const std::vector<Ball_3<typename Restricted::Kernel>>
       dropped.push_back(v);
   if (2 * dropped.size() > mesh.vertices().size()) return 0;
   for (const auto v : dropped) {
-    const int id = v->id();
-    mesh.leave_out(id, mesh.take_away(v));
+    Vertex_transaction_3<Restricted> change(mesh, v);
+    change.leave_out();
+    change.commit();
   }
   return dropped.size();
 }

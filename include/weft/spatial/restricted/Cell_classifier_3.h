@@ -90,7 +90,7 @@ private:
   static constexpr std::size_t block_size = 256;  ///< edges whose facets are collected together
   static constexpr std::size_t most_kept = 10000; ///< cells for which memory is kept
 
-  /// Most calls are about some dozens of cells; what the first one took, about all, was 0.6 of what the cells take.
+  /// Most calls are about some dozens of cells, but the first one is about all.
   void release_memory()
   {
     const auto release = [](auto&... vectors) { (std::decay_t<decltype(vectors)>().swap(vectors), ...); };

@@ -9,19 +9,16 @@
 #ifndef WEFT_SPATIAL_RESTRICTED_RESTRICTED_DELAUNAY_3_H
 #define WEFT_SPATIAL_RESTRICTED_RESTRICTED_DELAUNAY_3_H
 
-#include <weft/internal/timer.h>
 #include <weft/spatial/restricted/Cell_classifier_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/Crease_tracer_3.h>
 #include <weft/spatial/restricted/Facet_records_3.h>
 #include <weft/spatial/restricted/Mesh_triangulation_3.h>
-#include <weft/spatial/restricted/Relocator_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/Bbox_3.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -30,6 +27,17 @@
 #include <vector>
 
 namespace weft {
+namespace internal {
+
+// What changes a mesh other than by inserting into it; each in a header of its own.
+template <class Restricted>
+class Vertex_transaction_3;
+template <class Restricted>
+class Vacant_numbers_3;
+template <class Restricted>
+class Mesh_relocation_3;
+
+} // namespace internal
 
 /// The restricted Delaunay triangulation of a growing set of points.
 ///
@@ -90,20 +98,6 @@ public:
     return spatial_order_;
   }
 
-  /// Copies the triangulation to where vertices and cells lie in memory in the spatial order, after refinement has
-  /// strewn them. Handles don't survive, ids do. Takes 0.10 to 0.18 of the time of building it; a first sweep of
-  /// smoothing then takes a fifth less.
-  void sort_in_memory()
-  {
-    internal::Ordered_copy_3<Triangulation> copy = internal::copy_in_order(*tr_, vertices_, spatial_order());
-    facets_.set_cells(copy.cells);
-    vertices_.swap(copy.vertices);
-    tr_.swap(copy.triangulation);
-    tracer_.set_triangulation(*tr_);
-    creases_are_stale_ = true;
-    update();
-  }
-
   /// Makes a vertex stay where it is: neither smoothing nor perturbation nor coarsening touch it from now on.
   void fix(Vertex_handle v)
   {
@@ -155,124 +149,6 @@ public:
     return v;
   }
 
-  /// Takes a vertex away, to be put back elsewhere with `put_back()` or left out with `leave_out()` before anything
-  /// else is done. Until then the cells that fill its place aren't classified. Not for feature vertices. \returns those
-  /// cells.
-  std::vector<Cell_handle> take_away(Vertex_handle v)
-  {
-    std::vector<Cell_handle> star;
-    tr_->incident_cells(v, std::back_inserter(star));
-    for (const Cell_handle c : star) {
-      facets_.remove(c);
-      touch_vertices_of(c);
-    }
-    vertices_[static_cast<std::size_t>(v->id())] = Vertex_handle();
-    if (!creases_are_stale_) tracer_.forget(v);
-    std::vector<Cell_handle> filling;
-    tr_->remove_and_give_new_cells(v, std::back_inserter(filling));
-    return filling;
-  }
-
-  /// Classifies what fills the place of a vertex that was taken away; it may still be put back.
-  /// \param filling as returned by `take_away()`.
-  void settle(const std::vector<Cell_handle>& filling)
-  {
-    new_cells_ = filling;
-    update();
-  }
-
-  /// Leaves a vertex out that was taken away and classifies what fills its place. The last vertex takes its number.
-  /// \param filling as returned by `take_away()`.
-  void leave_out(int id, const std::vector<Cell_handle>& filling)
-  {
-    const auto k = static_cast<std::size_t>(id);
-    if (k + 1 < vertices_.size()) {
-      vertices_[k] = vertices_.back();
-      vertices_[k]->set_id(id);
-      touched_[k] = touched_.back();
-      if (k < fixed_.size()) fixed_[k] = vertices_.size() <= fixed_.size() && fixed_[vertices_.size() - 1];
-      tracer_.renumber();
-    }
-    vertices_.pop_back();
-    touched_.pop_back();
-    if (fixed_.size() > vertices_.size()) fixed_.pop_back();
-    new_cells_ = filling;
-    update();
-  }
-
-  /// Gives the vertices new ids, in the order of the old ones, after some of them were taken away for good. \returns
-  /// the new ones by the old ones, -1 for vertices that are gone.
-  std::vector<int> close_gaps()
-  {
-    std::vector<int> numbers;
-    int next = 0;
-    for (const Vertex_handle v : vertices_) numbers.push_back(v == Vertex_handle() ? -1 : next++);
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < fixed_.size(); ++i)
-      if (vertices_[i] != Vertex_handle()) fixed_[n++] = fixed_[i];
-    fixed_.resize(n);
-    vertices_.erase(std::remove(vertices_.begin(), vertices_.end(), Vertex_handle()), vertices_.end());
-    for (std::size_t i = 0; i < vertices_.size(); ++i) vertices_[i]->set_id(static_cast<int>(i));
-    touched_.assign(vertices_.size(), update_number_);
-    creases_are_stale_ = true;
-    update();
-    return numbers;
-  }
-
-  /// Exchanges the numbers of two vertices; the creases hear of it at the next `update()`, which is done at once.
-  void exchange_numbers(int i, int j)
-  {
-    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-    if (a == b) return;
-    std::swap(vertices_[a], vertices_[b]);
-    std::swap(touched_[a], touched_[b]);
-    if (!fixed_.empty()) {
-      fixed_.resize(vertices_.size(), false);
-      std::swap(fixed_[a], fixed_[b]);
-    }
-    vertices_[a]->set_id(i);
-    vertices_[b]->set_id(j);
-    tracer_.renumber();
-    tracer_.update([](Vertex_handle) { return false; });
-  }
-
-  /// Removes the vertex that was inserted last and classifies what fills its place.
-  void remove_last()
-  {
-    const std::vector<Cell_handle> filling = take_away(vertices_.back());
-    leave_out(static_cast<int>(vertices_.size()) - 1, filling);
-  }
-
-  /// Takes a vertex away that was just put back: what its place was filled with before is part of the filling again.
-  std::vector<Cell_handle> take_away_again(Vertex_handle v)
-  {
-    std::vector<Cell_handle> filling = take_away(v);
-    for (const Cell_handle c : filling_left_) {
-      declassify(c);
-      touch_vertices_of(c);
-      filling.push_back(c);
-    }
-    return filling;
-  }
-
-  /// Puts a vertex back that was taken away: at the point of a zone, under its number, and classifies what changed.
-  /// \param filling as returned by `take_away()`.
-  Vertex_handle put_back(const Zone& zone, const Vertex_location_3& location, int id,
-                         const std::vector<Cell_handle>& filling)
-  {
-    ++batches_;
-    for (const Cell_handle c : zone.cells) c->set_batch(batches_);
-    for (const Cell_handle c : filling)
-      if (c->is_classified()) declassify(c);
-    new_cells_.clear();
-    for (const Cell_handle c : filling)
-      if (c->batch() != batches_) new_cells_.push_back(c);
-    filling_left_ = new_cells_;
-    const Vertex_handle v = insert(zone, location, id);
-    update();
-    return v;
-  }
-
   /// Inserts a point whose conflict zone is known. Zones inserted between two calls of `update()` have to be
   /// independent, see `find_conflict_zone()`.
   Vertex_handle insert(const Zone& zone, const Vertex_location_3& location)
@@ -282,26 +158,6 @@ public:
     return insert(zone, location, static_cast<int>(vertices_.size()) - 1);
   }
 
-private:
-  Vertex_handle insert(const Zone& zone, const Vertex_location_3& location, int id)
-  {
-    for (const Cell_handle c : zone.cells) facets_.remove(c);
-    const Facet outer = zone.hull.front();
-    const Cell_handle inner = outer.first->neighbor(outer.second);
-    const Vertex_handle v =
-        tr_->insert_in_hole(zone.point, zone.cells.begin(), zone.cells.end(), inner, inner->index(outer.first));
-    v->set_location(location);
-    v->set_id(id);
-    vertices_[static_cast<std::size_t>(id)] = v;
-    for (const Facet& f : zone.hull) {
-      const Cell_handle c = f.first->neighbor(f.second);
-      touch_vertices_of(c);
-      new_cells_.push_back(c);
-    }
-    return v;
-  }
-
-public:
   /// Inserts points inside one after the other, each near the one before, and classifies only what is there at the end.
   /// \param subdomains of the points.
   void insert(const std::vector<Point>& points, const std::vector<int>& subdomains)
@@ -337,54 +193,6 @@ public:
     for (const Cell_handle c : tr_->finite_cell_handles())
       if (!c->is_classified()) new_cells_.push_back(c);
     update();
-  }
-
-  /// Moves vertices, by their ids, to new places and classifies what that changes. They move all at once and flips
-  /// restore the triangulation; where those get stuck, or too many vertices would have to be moved one by one, it is
-  /// built anew. Vertex handles don't survive, ids do. If a target coincides with another vertex, its vertex may stay
-  /// where it was.
-  /// \param stayed if given, the vertices that would have to be moved one by one stay, and this gets their places in
-  ///   `ids`, in order.
-  /// \pre targets lie inside the box; those of vertices on patches and creases lie on them.
-  internal::Relocation_counts_3 relocate(const std::vector<int>& ids, const std::vector<Point>& targets,
-                                         std::vector<std::size_t>* stayed = nullptr)
-  {
-    std::vector<Vertex_handle> moving;
-    for (const int id : ids) moving.push_back(vertices_[static_cast<std::size_t>(id)]);
-    internal::Relocation_counts_3 counts;
-    internal::Lap_timer lap;
-    std::vector<std::size_t> deferred;
-    internal::Relocator_3<Triangulation> relocator(*tr_);
-    const auto changing = [this](Cell_handle c) { declassify(c); };
-    relocator.place(moving, targets, changing, deferred);
-    counts.moving_seconds = lap.seconds();
-    const double most = stayed ? most_staying : most_alone;
-    const bool in_place = static_cast<double>(deferred.size()) < most * static_cast<double>(vertices_.size());
-    if (in_place) relocator.restore_delaunay(changing, counts);
-    counts.flipping_seconds = lap.seconds();
-    if (in_place && counts.stuck == 0) {
-      counts.in_place = ids.size() - deferred.size();
-      if (stayed) {
-        counts.put_back = deferred.size();
-        stayed->swap(deferred);
-        deferred.clear();
-      }
-      for (const std::size_t i : deferred) ++(move_alone(ids[i], targets[i]) ? counts.one_by_one : counts.put_back);
-    } else {
-      ++counts.rebuilds;
-      const bool done = rebuild(ids, targets, relocator.old_points());
-      (done ? counts.rebuilt : counts.put_back) = ids.size();
-    }
-    counts.rebuilding_seconds = lap.seconds();
-    new_cells_.clear();
-    for (const Cell_handle c : tr_->finite_cell_handles()) {
-      if (c->is_classified()) continue;
-      new_cells_.push_back(c);
-      touch_vertices_of(c);
-    }
-    update();
-    counts.classifying_seconds = lap.seconds();
-    return counts;
   }
 
   /// Classifies what insertions have changed: cells, facets and crease edges.
@@ -428,12 +236,9 @@ public:
   }
 
 private:
-  /// Part of the vertices to move one by one rather than to build anew. A vertex takes 40 us by itself and 3 us in a
-  /// new triangulation, which flips needn't then have mended.
-  static constexpr double most_alone = 0.05;
-  /// The same where those vertices may as well stay. A first sweep of smoothing leaves 12 to 23 per cent of them; its
-  /// flips, 1.3 a vertex, take half as long as building anew.
-  static constexpr double most_staying = 0.5;
+  friend class internal::Vertex_transaction_3<Restricted_delaunay_3>;
+  friend class internal::Vacant_numbers_3<Restricted_delaunay_3>;
+  friend class internal::Mesh_relocation_3<Restricted_delaunay_3>;
 
   void insert_box()
   {
@@ -442,6 +247,40 @@ private:
     // A point of the domain is at most one diagonal away from any vertex in it, and at least 1.5 from these corners.
     const double r = 2 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
     for (int i = 0; i < 8; ++i) tr_->insert(Point(i & 1 ? x + r : x - r, i & 2 ? y + r : y - r, i & 4 ? z + r : z - r));
+  }
+
+  Vertex_handle insert(const Zone& zone, const Vertex_location_3& location, int id)
+  {
+    for (const Cell_handle c : zone.cells) facets_.remove(c);
+    const Facet outer = zone.hull.front();
+    const Cell_handle inner = outer.first->neighbor(outer.second);
+    const Vertex_handle v =
+        tr_->insert_in_hole(zone.point, zone.cells.begin(), zone.cells.end(), inner, inner->index(outer.first));
+    v->set_location(location);
+    v->set_id(id);
+    vertices_[static_cast<std::size_t>(id)] = v;
+    for (const Facet& f : zone.hull) {
+      const Cell_handle c = f.first->neighbor(f.second);
+      touch_vertices_of(c);
+      new_cells_.push_back(c);
+    }
+    return v;
+  }
+
+  /// Takes a vertex out and leaves its number vacant. \returns the cells that fill its place, not classified.
+  std::vector<Cell_handle> take_away(Vertex_handle v)
+  {
+    std::vector<Cell_handle> star;
+    tr_->incident_cells(v, std::back_inserter(star));
+    for (const Cell_handle c : star) {
+      facets_.remove(c);
+      touch_vertices_of(c);
+    }
+    vertices_[static_cast<std::size_t>(v->id())] = Vertex_handle();
+    if (!creases_are_stale_) tracer_.forget(v);
+    std::vector<Cell_handle> filling;
+    tr_->remove_and_give_new_cells(v, std::back_inserter(filling));
+    return filling;
   }
 
   void classify()
@@ -456,59 +295,6 @@ private:
   {
     facets_.remove(c);
     c->set_classified(false);
-  }
-
-  /// Takes a vertex away and inserts it at its target, or where it was; whether it got there.
-  bool move_alone(int id, const Point& target)
-  {
-    const Vertex_handle v = vertices_[static_cast<std::size_t>(id)];
-    const Point old = v->point();
-    const Vertex_location_3 location = v->location();
-    const Cell_handle near = take_away(v).front();
-    Zone zone;
-    const bool found = internal::find_conflict_zone(*tr_, target, near, zone) == internal::Zone_result::found;
-    if (!found) internal::find_conflict_zone(*tr_, old, near, zone);
-    insert(zone, location, id);
-    new_cells_.clear();
-    return found;
-  }
-
-  /// Builds the triangulation anew with some vertices elsewhere; with the old ones where two would coincide, and
-  /// false.
-  bool rebuild(const std::vector<int>& ids, const std::vector<Point>& targets, const std::vector<Point>& old)
-  {
-    std::vector<Point> points;
-    std::vector<Vertex_location_3> locations;
-    for (const Vertex_handle v : vertices_) {
-      points.push_back(v->point());
-      locations.push_back(v->location());
-    }
-    const auto set = [&](const std::vector<Point>& values) {
-      for (std::size_t i = 0; i < ids.size(); ++i) points[static_cast<std::size_t>(ids[i])] = values[i];
-    };
-    set(targets);
-    if (build(points, locations)) return true;
-    set(old);
-    build(points, locations);
-    return false;
-  }
-
-  /// Whether all points are distinct.
-  bool build(const std::vector<Point>& points, const std::vector<Vertex_location_3>& locations)
-  {
-    tr_->clear();
-    insert_box();
-    creases_are_stale_ = true;
-    facets_.clear();
-    Cell_handle hint;
-    for (const std::size_t i : internal::insertion_order_3<Kernel>(points)) {
-      const Vertex_handle v = tr_->insert(points[i], hint);
-      v->set_location(locations[i]);
-      v->set_id(static_cast<int>(i));
-      vertices_[i] = v;
-      hint = v->cell();
-    }
-    return tr_->number_of_vertices() == points.size() + 8;
   }
 
   void touch(Vertex_handle v)
@@ -535,8 +321,6 @@ private:
   int batches_ = 0;
   bool creases_are_stale_ = true;      ///< single insertions don't follow them at once
   std::vector<Cell_handle> new_cells_; ///< not classified yet
-  /// Cells that filled the place of the vertex put back last and are there still.
-  std::vector<Cell_handle> filling_left_;
 };
 
 /// Calls `visit(facet)` for each restricted facet at a vertex, once; `visit` mustn't come back here. Linear in the

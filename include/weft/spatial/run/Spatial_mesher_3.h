@@ -21,6 +21,7 @@
 #include <weft/spatial/refine/seed_lattice_3.h>
 #include <weft/spatial/refine/Vertex_set_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
+#include <weft/spatial/restricted/Mesh_relocation_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
 #include <weft/spatial/run/report_3.h>
 
@@ -98,8 +99,7 @@ public:
   }
 
   /// To be called in between: takes the vertices around elements that are bad still away and refines once more, up to
-  /// twelve times, and keeps the mesh with the fewest. On the dinosaur for approximations of 0.0003 to 0.0012 and three
-  /// seeds each, 27 of 45 meshes keep bad elements without it, nine with it; of the 37 of the femur three stay.
+  /// twelve times, and keeps the mesh with the fewest.
   void start_again_where_bad()
   {
     if (!goes_on_ || initial_ || bad_left_ == 0) return;
@@ -189,8 +189,7 @@ private:
   }
 
   /// Those interior vertices that lie in the domain, as few don't where cells are inverted, and don't end up on the
-  /// boundary. Otherwise refinement has to surround them with vertices on the surface: 5000 instead of 2900 on the
-  /// elephant as Netgen leaves it unoptimised.
+  /// boundary. Otherwise refinement has to surround them with vertices on the surface.
   void insert_interior()
   {
     const std::size_t before = interior_.size();
@@ -223,9 +222,7 @@ private:
   }
 
   /// Cuts creases into equal parts where that takes fewer of them than halving would, cycles and loops with one feature
-  /// vertex into three at least: the fewest that make a polygon. On average over
-  /// seven creased parts 0.5 % fewer vertices for a thousandth and 2.6 % for half of it; the cylinder's circles take 38
-  /// and 52 points instead of 48 and 96.
+  /// vertex into three at least: the fewest that make a polygon.
   void insert_crease_seeds()
   {
     for (std::size_t c = 0; c < oracle_.number_of_creases(); ++c) {
@@ -323,17 +320,15 @@ private:
     settled_ = 0;
   }
 
-  /// Interleaves what Alg. 5 does, in another order: smoothing the coarse mesh and refining it then, as there,
-  /// takes 1.9 times the vertices on the elephant, since it moves vertices away from the folds that attracted them.
-  /// Criteria come first, then vertices are taken away as long as they hold, and smoothing, which keeps them too, makes
-  /// room for more of that: 4362, 3587 and 3229 vertices. What couldn't be refined before stays as it is: on none of 7
-  /// noisy scans and 300 damaged surfaces another refinement mended the last of it, and at the acute edges of a scan
-  /// (femur) it made 285 bad elements of 9.
+  /// Interleaves what Alg. 5 does, in another order: smoothing the coarse mesh and refining it then, as there, takes
+  /// more vertices, since it moves vertices away from the folds that attracted them. Criteria come first, then vertices
+  /// are taken away as long as they hold, and smoothing, which keeps them too, makes room for more of that. What
+  /// couldn't be refined before stays as it is: another refinement mends nothing there, and may make more bad elements.
   bool coarsen_and_smooth()
   {
     if (!options_.coarsen && options_.smoothing_sweeps == 0) return true;
     begin_stage("sorting in memory", Stage::polishing);
-    mesh_.sort_in_memory();
+    sort_in_memory(mesh_);
     report_.refined_smallest_dihedral = smallest_dihedral();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     return !initial_ || refine_to_final_shapes();
@@ -481,9 +476,7 @@ private:
     stage_name_.clear();
   }
 
-  // On nested spheres with sizes of a twentieth, vertices with the lattice kept 1 / 0.8 / 0.6 / 0.5 / 0.4 spacings from
-  // the boundary: 16994, 15973, 14779, 14593, 14432, all before Steiner points were chosen; 0.3 and 0.4 then: 13621 and
-  // 13630.
+  // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
   static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.3;
   static constexpr std::size_t most_seeds = 40;
   static constexpr int most_restarts = 12;
