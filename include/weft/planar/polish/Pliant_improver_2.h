@@ -8,6 +8,7 @@
 #ifndef WEFT_PLANAR_POLISH_PLIANT_IMPROVER_2_H
 #define WEFT_PLANAR_POLISH_PLIANT_IMPROVER_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/planar/polish/Neighborhood_2.h>
 #include <weft/planar/polish/Polisher_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -90,8 +91,8 @@ private:
   {
     std::array<Vertex_handle, 3> v;
     for (int i = 0; i < 3; ++i) {
-      v[i] = mesh_.vertices()[t[i]];
-      if (v[i] == Vertex_handle()) return false;
+      v[as_index(i)] = mesh_.vertices()[as_index(t[as_index(i)])];
+      if (v[as_index(i)] == Vertex_handle()) return false;
     }
     return mesh_.triangulation().is_face(v[0], v[1], v[2], f);
   }
@@ -105,7 +106,8 @@ private:
     const std::uint64_t key = key_of_surroundings(f);
     if (failures_.contains(key)) return false;
     for (int i = 0; i < 3; ++i)
-      if (find(t, f) && mesh_.vertices()[t[i]]->constraint() != fixed_vertex && try_removal(f, t[i])) {
+      if (find(t, f) && mesh_.vertices()[as_index(t[as_index(i)])]->constraint() != fixed_vertex &&
+          try_removal(f, t[as_index(i)])) {
         ++insertions_left_;
         return true;
       }
@@ -136,7 +138,7 @@ private:
     Triangle edges{0, 1, 2};
     std::sort(edges.begin(), edges.end(),
               [&](int i, int j) { return mesh_.squared_length(f, i) > mesh_.squared_length(f, j); });
-    const int i = edges[k];
+    const int i = edges[as_index(k)];
     const Point p = CGAL::midpoint(f->vertex(Triangulation::ccw(i))->point(), f->vertex(Triangulation::cw(i))->point());
     return f->is_constrained(i) ? mesh_.insert_on_constraint(p, f, i) : mesh_.insert_inside(p, f);
   }
@@ -163,7 +165,7 @@ private:
   {
     Region region(mesh_, f, 1);
     const double old_cost = cost(region.vertices());
-    const Vertex_handle v = mesh_.vertices()[id];
+    const Vertex_handle v = mesh_.vertices()[as_index(id)];
     const Point p = region.forget(v);
     const int constraint = v->constraint();
     const auto [a, b] = constraint >= 0 ? mesh_.neighbors_on_constraint(v) : std::array<Vertex_handle, 2>();
