@@ -241,7 +241,7 @@ private:
   /// Seeds every patch that has no facet yet, and refines again, until all have.
   bool seed_patches()
   {
-    for (int round = 0; round < 4; ++round) {
+    for (std::size_t round = 0; round < 4; ++round) {
       if (seed_bare_patches(round == 0 ? 4 : 2 * round) == 0) return true;
       if (!refine(options_.initial_loosening, false)) return false;
     }
