@@ -37,8 +37,8 @@ public:
 
   Pliant_improver_2(Mesh& mesh, Polisher_2<Mesh>& polisher) : mesh_(mesh), polisher_(polisher) {}
 
-  /// Allows so many more insertions than removals, and so many trials. Without a budget, a shore of fractal detail
-  /// takes half as many points again as greedy refinement, for angles that nobody asked for.
+  /// Allows so many more insertions than removals, and so many trials. Without a budget, fractal details of the input
+  /// take very many points, for angles that nobody asked for.
   void set_budget(std::size_t insertions, std::size_t trials)
   {
     insertions_left_ = insertions;
@@ -74,8 +74,8 @@ private:
   // What a kept change must leave of the neighborhood's cost.
   static constexpr double worth_inserting = 0.75, worth_removing = 0.8;
 
-  // A removal that multiplies the neighborhood's cost by more isn't worth polishing. On a fractal shore that ends three
-  // of five removals at once; of those kept in the end one in eight had cost more.
+  // A removal that multiplies the neighborhood's cost by more isn't worth polishing: that ends most removals at once,
+  // and few of them would have been kept.
   static constexpr double hopeless_removal = 1e4;
 
   // What a trial takes from the budget where more than a twentieth of all triangles is bad: details of the input force
@@ -97,8 +97,8 @@ private:
     return mesh_.triangulation().is_face(v[0], v[1], v[2], f);
   }
 
-  /// Tries the changes at a triangle, those that save a vertex first, unless all of it has been tried before: half
-  /// of the removals tried on a fractal shore were repetitions. Returns whether a change was kept.
+  /// Tries the changes at a triangle, those that save a vertex first, unless all of it has been tried before. Returns
+  /// whether a change was kept.
   bool mend(const Triangle& t)
   {
     Face_handle f;

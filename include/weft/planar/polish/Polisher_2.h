@@ -62,7 +62,7 @@ public:
     reset();
     std::size_t moved = 0;
     for (int i = 0; i < most_passes && go_on(); ++i) {
-      // Looking at all triangles again after each pass took a tenth of the time of polishing a fractal shore.
+      // Looking at all triangles again after each pass would take time for nothing.
       const std::size_t n = i == 0 ? pass(bound) : pass(faces_near(std::exchange(hopeful_, {})), bound);
       moved += n;
       if (n == 0) break;

@@ -126,7 +126,7 @@ private:
     Smoothing_context_3<Restricted, Sizing> context(mesh_, sizing_);
     context.measure(cells_, options_.threads);
     std::vector<std::optional<Point>> wanted(is_free.size());
-    // In the order of ids, which is that of refinement, this takes a fifth longer on bunny.
+    // In the order of ids, which is that of refinement, this takes longer.
     const std::vector<std::size_t>& order = mesh_.spatial_order();
     internal::parallel_for(order.size(), options_.threads, [&](std::size_t k) {
       const std::size_t i = order[k];

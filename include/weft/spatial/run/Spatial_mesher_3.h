@@ -345,7 +345,7 @@ private:
     return refine(1, true);
   }
 
-  /// Watches all that comes after refinement: one for each stage took a fifth of a run.
+  /// Watches all that comes after refinement: one for each stage would take too long.
   Criteria_guard_3<Restricted>& guard()
   {
     if (!guard_) guard_.emplace(mesh_, criteria_);
