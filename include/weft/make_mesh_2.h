@@ -27,7 +27,7 @@ namespace weft {
 /// have running ids. On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
 ///
 /// Time is about linear in the number of vertices; the result depends on nothing but the arguments, not on threads.
-/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Triangulation_2.h.
+/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Mesh_triangulation_2.h.
 /// \param sizing callable, point -> largest edge length in the input's units.
 /// \throws Option_error for options out of range, and when the sizing field returns anything but positive numbers.
 /// \throws Domain_error when there is no domain.
