@@ -295,7 +295,7 @@ Status mesh(const Request& request, const Domain& domain, const CGAL::Bbox_3& bo
   const auto result = make_mesh(domain, criteria, options);
   progress.bar().clear();
 
-  const Mesh tetrahedra = weft::tetrahedral_mesh(result.mesh);
+  const Mesh tetrahedra = weft::tetrahedral_mesh(result.restricted);
   if (tetrahedra.cells.empty())
     throw Error(request.name() + ": no mesh yet, " + name(result.report.stop_reason) + "; nothing is written");
   const weft::Quality_3 quality = weft::measure_quality_3(tetrahedra);

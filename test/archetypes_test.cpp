@@ -98,10 +98,10 @@ TEST_CASE("make_mesh_3 and smooth_3 need no more than the concepts of oracles, l
   auto result = weft::make_mesh_3(oracle, criteria);
   CHECK(result.report.ok());
   auto expected = weft::make_mesh_3(model, criteria);
-  CHECK(points_of(result.mesh) == points_of(expected.mesh));
+  CHECK(points_of(result.restricted) == points_of(expected.restricted));
 
   const weft::Natural_odt_3 odt;
-  weft::smooth_3(result.mesh, criteria, weft::Smooth_options_3(), concepts::Smoother_3<weft::Natural_odt_3>(odt));
-  weft::smooth_3(expected.mesh, criteria, weft::Smooth_options_3(), odt);
-  CHECK(points_of(result.mesh) == points_of(expected.mesh));
+  weft::smooth_3(result.restricted, criteria, weft::Smooth_options_3(), concepts::Smoother_3<weft::Natural_odt_3>(odt));
+  weft::smooth_3(expected.restricted, criteria, weft::Smooth_options_3(), odt);
+  CHECK(points_of(result.restricted) == points_of(expected.restricted));
 }

@@ -50,7 +50,7 @@ C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria,
         smallest_detail * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
   const auto result = make_mesh_3(oracle, own_criteria, own_options);
   if (report) *report = result.report;
-  return to_c3t3<C3t3>(result.mesh, oracle);
+  return to_c3t3<C3t3>(result.restricted, oracle);
 }
 
 } // namespace weft

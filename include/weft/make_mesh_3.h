@@ -28,7 +28,9 @@ namespace weft {
 template <class Oracle>
 struct Make_mesh_result_3
 {
-  Restricted_delaunay_3<Oracle> mesh; ///< `tetrahedral_mesh(mesh)` gives arrays, `to_c3t3(mesh)` CGAL's complex
+  /// The mesh inside the Delaunay triangulation that it is restricted from: `tetrahedral_mesh(restricted)` gives
+  /// arrays, `to_c3t3(restricted)` CGAL's complex. Asks the oracle, which has to outlive it.
+  Restricted_delaunay_3<Oracle> restricted;
   Mesh_report_3 report;
 };
 

@@ -8,7 +8,7 @@
 //   weft::Criteria_3<K> criteria;
 //   criteria.size = 5;
 //   const auto result = weft::mesh_surface_3(weft::piecewise_smooth_complex(surface), criteria);
-//   weft::IO::write_mesh_3("armadillo.vtu", weft::tetrahedral_mesh(result.mesh));
+//   weft::IO::write_mesh_3("armadillo.vtu", weft::tetrahedral_mesh(result.restricted));
 
 #ifndef WEFT_MESH_SURFACE_3_H
 #define WEFT_MESH_SURFACE_3_H
@@ -35,8 +35,8 @@ namespace weft {
 template <class K>
 struct Mesh_surface_result_3
 {
-  std::shared_ptr<const Polyhedral_oracle_3<K>> domain; ///< what the mesh asks; its complex has the creases kept
-  Restricted_delaunay_3<Polyhedral_oracle_3<K>> mesh;
+  std::shared_ptr<const Polyhedral_oracle_3<K>> domain;     ///< what the mesh asks; its complex has the creases kept
+  Restricted_delaunay_3<Polyhedral_oracle_3<K>> restricted; ///< the mesh, as in Make_mesh_result_3
   Mesh_report_3 report;
 };
 
