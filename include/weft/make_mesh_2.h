@@ -12,9 +12,12 @@
 
 #include <weft/options.h>
 #include <weft/planar/Planar_mesher_2.h>
+#include <weft/planar/require_planar_2.h>
 #include <weft/planar/Triangulation_2.h>
 #include <weft/report.h>
 #include <weft/sizing/Uniform_sizing.h>
+
+#include <type_traits>
 
 namespace weft {
 
@@ -27,15 +30,23 @@ namespace weft {
 /// have running ids. On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
 ///
 /// Time is about linear in the number of vertices; the result depends on nothing but the arguments, not on threads.
-/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Triangulation_2.h.
-/// \param sizing callable, point -> largest edge length in the input's units.
+/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Triangulation_2.h. Neither
+///         `Triangulation_hierarchy_2` nor `Constrained_triangulation_plus_2`, whose layers the mesher doesn't keep.
+/// \param sizing callable, point -> largest edge length in the input's units; or a number, which holds everywhere.
 /// \throws Option_error for options out of range, and when the sizing field returns anything but positive numbers.
 /// \throws Domain_error when there is no domain.
 template <class Cdt, class Sizing>
 Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
 {
-  options.check();
-  return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
+  if constexpr (std::is_arithmetic_v<Sizing>) {
+    return make_mesh_2(cdt, Uniform_sizing<>(sizing), options);
+  } else if constexpr (internal::Planar_requirements_2<Cdt, Sizing>::holds) {
+    options.check();
+    return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
+  } else {
+    internal::Planar_requirements_2<Cdt, Sizing>::complain();
+    return {};
+  }
 }
 
 /// Relaxes an existing mesh: vertices without constraints move to better places, those on constraints stay, nothing is
@@ -45,8 +56,15 @@ Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& 
 template <class Cdt, class Sizing>
 Mesh_report_2 relax_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
 {
-  options.check();
-  return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
+  if constexpr (std::is_arithmetic_v<Sizing>) {
+    return relax_2(cdt, Uniform_sizing<>(sizing), options);
+  } else if constexpr (internal::Planar_requirements_2<Cdt, Sizing>::holds) {
+    options.check();
+    return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
+  } else {
+    internal::Planar_requirements_2<Cdt, Sizing>::complain();
+    return {};
+  }
 }
 
 } // namespace weft
