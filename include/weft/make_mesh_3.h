@@ -17,9 +17,12 @@
 #include <weft/spatial/Criteria_3.h>
 #include <weft/spatial/extract_mesh_3.h>
 #include <weft/spatial/Polyhedral_oracle_3.h>
+#include <weft/spatial/require_oracle_3.h>
 #include <weft/spatial/Restricted_delaunay_3.h>
 #include <weft/spatial/Spatial_mesher_3.h>
 
+#include <cstdlib>
+#include <type_traits>
 #include <utility>
 
 namespace weft {
@@ -39,18 +42,42 @@ struct Make_mesh_result_3
 /// Feature vertices become vertices, creases chains of edges, patches triangulated surfaces whose vertices lie on them.
 /// Ends when all criteria hold or when nothing more can be done about those that don't, which the report counts; on
 /// early stops (budgets, time, visitor) the mesh is the Delaunay mesh as it was then.
-/// \param oracle a domain oracle, see Polyhedral_oracle_3.h; has to outlive the result.
+/// \param oracle a domain oracle, see doc/concepts/DomainOracle_3.h; has to outlive the result, so a temporary is
+///        refused.
 /// \throws Option_error for criteria or options out of range, or if a field of the criteria isn't positive.
 template <class Oracle>
 Make_mesh_result_3<Oracle> make_mesh_3(const Oracle& oracle, const Criteria_3<typename Oracle::Kernel>& criteria,
                                        const Mesh_options_3& options = Mesh_options_3())
 {
-  criteria.check();
-  options.check();
-  Spatial_mesher_3<Oracle> mesher(oracle, criteria, options);
-  Mesh_report_3 report = mesher.run();
-  return {mesher.take_mesh(), std::move(report)};
+  if constexpr (internal::Oracle_requirements_3<Oracle>::holds) {
+    criteria.check();
+    options.check();
+    Spatial_mesher_3<Oracle> mesher(oracle, criteria, options);
+    Mesh_report_3 report = mesher.run();
+    return {mesher.take_mesh(), std::move(report)};
+  } else {
+    internal::Oracle_requirements_3<Oracle>::complain();
+    std::abort();
+  }
 }
+
+/// \cond
+// Overloads that only say what is wrong.
+template <class Oracle>
+Make_mesh_result_3<Oracle> make_mesh_3(const Oracle&&, const Criteria_3<typename Oracle::Kernel>&,
+                                       const Mesh_options_3& = Mesh_options_3())
+{
+  internal::complain_about_temporary_3<Oracle>();
+  std::abort();
+}
+
+template <class Oracle, class Criteria, std::enable_if_t<!internal::Takes_3<Oracle, Criteria>::value, int> = 0>
+internal::No_mesh_3 make_mesh_3(const Oracle&, const Criteria&, const Mesh_options_3& = Mesh_options_3())
+{
+  internal::complain_about_arguments_3<Oracle, Criteria>();
+  return {};
+}
+/// \endcond
 
 } // namespace weft
 

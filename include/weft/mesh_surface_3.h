@@ -20,12 +20,14 @@
 #include <weft/spatial/give_up_creases_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/Polyhedral_oracle_3.h>
+#include <weft/spatial/require_oracle_3.h>
 #include <weft/spatial/Restricted_delaunay_3.h>
 #include <weft/spatial/Spatial_mesher_3.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,20 @@ struct Mesh_surface_result_3
 };
 
 namespace internal {
+
+template <class Surface>
+struct Is_complex_3 : std::false_type
+{};
+template <class K>
+struct Is_complex_3<Piecewise_smooth_complex_3<K>> : std::true_type
+{};
+
+template <class Surface, class Criteria>
+struct Takes_surface_3 : std::false_type
+{};
+template <class K>
+struct Takes_surface_3<Piecewise_smooth_complex_3<K>, Criteria_3<K>> : std::true_type
+{};
 
 /// One domain for a surface, and its mesher.
 template <class K>
@@ -141,6 +157,19 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
   if (is_hopeless) first->optimise();
   return result(*first, 0);
 }
+
+/// \cond
+// An overload that only says what is wrong.
+template <class Surface, class Criteria,
+          std::enable_if_t<!internal::Takes_surface_3<Surface, Criteria>::value, int> = 0>
+internal::No_mesh_3 mesh_surface_3(const Surface&, const Criteria&, const Mesh_options_3& = Mesh_options_3())
+{
+  constexpr bool is_complex = internal::Is_complex_3<Surface>::value;
+  static_assert(is_complex, "weft: mesh_surface_3() takes what piecewise_smooth_complex(surface) returns");
+  static_assert(!is_complex, "weft: the criteria aren't a weft::Criteria_3 with the surface's kernel");
+  return {};
+}
+/// \endcond
 
 } // namespace weft
 

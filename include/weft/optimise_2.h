@@ -12,6 +12,7 @@
 #define WEFT_OPTIMISE_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/answers.h>
 #include <weft/planar/assemble_mesh_2.h>
 #include <weft/planar/Improve_options_2.h>
 #include <weft/planar/Mesh_improver_2.h>
@@ -22,6 +23,7 @@
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -36,6 +38,20 @@ struct Improve_result_2
 };
 
 namespace internal {
+
+template <class Mesh>
+struct Is_triangle_mesh_2 : std::false_type
+{};
+template <class K>
+struct Is_triangle_mesh_2<Triangle_mesh_2<K>> : std::true_type
+{};
+
+/// What is returned after a complaint.
+struct No_result_2
+{
+  int mesh = 0;
+  Improve_report_2 report;
+};
 
 template <class K>
 std::size_t count_inverted(const Triangle_mesh_2<K>& mesh)
@@ -273,6 +289,17 @@ Improve_result_2<K> optimise_2(const Triangle_mesh_2<K>& mesh, const Improve_opt
   internal::require_structure(mesh);
   return internal::Optimisation_2<K>(mesh, options).run();
 }
+
+/// \cond
+// An overload that only says what is wrong.
+template <class Mesh, std::enable_if_t<!internal::Is_triangle_mesh_2<Mesh>::value, int> = 0>
+internal::No_result_2 optimise_2(const Mesh&, const Improve_options_2& = Improve_options_2())
+{
+  static_assert(internal::never_v<Mesh>, "weft: optimise_2() takes a weft::Triangle_mesh_2<K>: triangle_mesh_2() makes "
+                                         "one of a triangulation, assemble_mesh_2() of arrays");
+  return {};
+}
+/// \endcond
 
 } // namespace weft
 

@@ -16,6 +16,7 @@
 
 #include <weft/internal/parallel_for.h>
 #include <weft/spatial/circumcenter_3.h>
+#include <weft/spatial/oracle_hits_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -56,7 +57,7 @@ class Cell_classifier_3
 public:
   using Kernel = typename Oracle::Kernel;
   using Point = typename Kernel::Point_3;
-  using Surface_hit = decltype(std::declval<const Oracle&>().closest(std::declval<const Point&>()));
+  using Surface_hit = Surface_hit_3<Kernel>;
   using Cell_handle = typename Triangulation::Cell_handle;
   using Restricted_facet = Restricted_facet_3<Triangulation>;
 

@@ -44,7 +44,9 @@ namespace weft {
 template <class K>
 class Polyhedral_oracle_3
 {
-  static_assert(std::is_same<typename K::FT, double>::value, "the oracle's error bounds are those of doubles");
+  static_assert(std::is_same<typename K::FT, double>::value,
+                "weft: spatial meshes need a kernel with exact predicates and coordinates of type double, such as "
+                "CGAL::Exact_predicates_inexact_constructions_kernel");
 
 public:
   using Kernel = K;

@@ -16,6 +16,7 @@
 #include <weft/spatial/Crease_tracer_3.h>
 #include <weft/spatial/Facet_records_3.h>
 #include <weft/spatial/Feature_incidence_3.h>
+#include <weft/spatial/oracle_hits_3.h>
 #include <weft/spatial/spatial_order_3.h>
 #include <weft/spatial/Triangulation_3.h>
 
@@ -43,7 +44,7 @@ public:
   using Oracle = Oracle_;
   using Kernel = typename Oracle::Kernel;
   using Point = typename Kernel::Point_3;
-  using Surface_hit = decltype(std::declval<const Oracle&>().closest(std::declval<const Point&>()));
+  using Surface_hit = Surface_hit_3<Kernel>;
   using Triangulation = Mesh_triangulation_3<Kernel>;
   using Vertex_handle = typename Triangulation::Vertex_handle;
   using Cell_handle = typename Triangulation::Cell_handle;
@@ -68,6 +69,8 @@ public:
       tracer_.add_crease(std::move(points));
     }
   }
+
+  explicit Restricted_delaunay_3(const Oracle&& temporary, int threads = 1) = delete;
 
   const Oracle& oracle() const { return *oracle_; }
   const Feature_incidence_3& incidence() const { return incidence_; }
