@@ -3,7 +3,18 @@
 // START HERE coming from CGAL's Mesh_3. `weft::make_mesh_3<C3t3>(domain, criteria)` takes what CGAL's function of that
 // name takes, any MeshDomain_3 and MeshCriteria_3, and returns what it returns:
 //
-//   const C3t3 c3t3 = weft::make_mesh_3<C3t3>(domain, criteria);
+//   #include <CGAL/Labeled_mesh_domain_3.h>
+//   #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+//   #include <CGAL/Mesh_criteria_3.h>
+//   #include <CGAL/Mesh_triangulation_3.h>
+//
+//   using Domain = CGAL::Labeled_mesh_domain_3<K>;
+//   using C3t3 = CGAL::Mesh_complex_3_in_triangulation_3<CGAL::Mesh_triangulation_3<Domain>::type>;
+//
+//   const auto ball = [](const K::Point_3& p) { return CGAL::squared_distance(p, K::Point_3(0, 0, 0)) - 1; };
+//   const Domain domain = Domain::create_implicit_mesh_domain(ball, K::Sphere_3(CGAL::ORIGIN, 4));
+//   const CGAL::Mesh_criteria_3<C3t3::Triangulation> criteria(CGAL::parameters::cell_size = 0.2);
+//   const C3t3 c3t3 = weft::make_mesh_3<C3t3>(domain, criteria); // was CGAL::make_mesh_3
 
 #ifndef WEFT_MAKE_C3T3_H
 #define WEFT_MAKE_C3T3_H

@@ -4,8 +4,12 @@
 // triangles whose edges respect a sizing field, by interleaving refinement with relaxation (Tournois 2009, chapter 2,
 // Alg. 2). `relax_2()` improves a mesh that somebody else made without inserting anything.
 //
-//   weft::Mesh_triangulation_2<> cdt;               // insert points and constraints, or weft::insert_pslg()
-//   const auto report = weft::make_mesh_2(cdt, weft::Uniform_sizing<>(0.1));
+//   const K::Point_2 a(0, 0), b(1, 0), c(0, 1);
+//   weft::Mesh_triangulation_2<K> cdt; // or weft::insert_pslg()
+//   cdt.insert_constraint(a, b);
+//   cdt.insert_constraint(b, c);
+//   cdt.insert_constraint(c, a);
+//   const auto report = weft::make_mesh_2(cdt, 0.1); // no edge longer than 0.1
 
 #ifndef WEFT_MAKE_MESH_2_H
 #define WEFT_MAKE_MESH_2_H

@@ -3,6 +3,8 @@
 // START HERE in 3D. `make_mesh_3()` fills the domain behind an oracle with tetrahedra that satisfy size, approximation,
 // shape and topology criteria, by batches of Delaunay refinement (Tournois 2009, sec. 3.2).
 //
+//   #include <weft/IO/read_surface.h>
+//
 //   const auto surface = weft::IO::read_surface<K>("elephant.off");
 //   const weft::Polyhedral_oracle_3<K> domain(surface, weft::Feature_options{60});
 //   weft::Criteria_3<K> criteria;

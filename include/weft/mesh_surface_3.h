@@ -4,6 +4,9 @@
 // domain that a surface bounds, but doesn't insist on creases that were found by angle: scanned surfaces have folds
 // that look sharp here and there, and that no mesh of the asked size and shape can follow.
 //
+//   #include <weft/IO/read_surface.h>
+//   #include <weft/IO/write_mesh_3.h>
+//
 //   const auto surface = weft::IO::read_surface<K>("armadillo.off");
 //   weft::Criteria_3<K> criteria;
 //   criteria.size = 5;
@@ -17,6 +20,8 @@
 #include <weft/options.h>
 #include <weft/report.h>
 #include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/extract_mesh_3.h>
+#include <weft/spatial/features_3.h>
 #include <weft/spatial/give_up_creases_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/Polyhedral_oracle_3.h>

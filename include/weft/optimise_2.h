@@ -4,6 +4,9 @@
 // constrained Delaunay mesh of the same domain and regions with about the same vertices. The boundary slides along
 // itself, or every edge of it stays.
 //
+//   #include <weft/IO/read_triangle_mesh.h>
+//   #include <weft/IO/write_mesh_2.h>
+//
 //   const auto input = weft::IO::read_triangle_mesh<K>("part.msh");
 //   const auto [mesh, report] = weft::optimise_2(input.mesh);
 //   weft::IO::write_mesh_2("better.msh", mesh);

@@ -4,6 +4,9 @@
 // that slides on itself the mesh becomes a Delaunay mesh of the same domain with about the same vertices; with a fixed
 // boundary every boundary triangle stays.
 //
+//   #include <weft/IO/read_tetrahedral_mesh.h>
+//   #include <weft/IO/write_mesh_3.h>
+//
 //   const auto input = weft::IO::read_tetrahedral_mesh<K>("part.mesh");
 //   const auto [mesh, report] = weft::optimise_3(input.mesh);
 //   weft::IO::write_mesh_3("better.mesh", mesh);

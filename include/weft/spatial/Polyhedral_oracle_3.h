@@ -21,6 +21,7 @@
 #include <weft/spatial/Acute_edges_3.h>
 #include <weft/spatial/Crease_network_3.h>
 #include <weft/spatial/Feature_incidence_3.h>
+#include <weft/spatial/features_3.h>
 #include <weft/spatial/oracle_hits_3.h>
 #include <weft/spatial/Patched_surface_3.h>
 #include <weft/spatial/Piecewise_smooth_complex_3.h>
@@ -71,7 +72,7 @@ public:
     salient_ = Salient_features_3<K>(complex_, {fold_angle, ridge_angle, sharp_angle, 180 - acute_angle});
   }
 
-  /// From a surface, by `piecewise_smooth_complex(surface, options)`; include features_3.h for it.
+  /// From a surface, by `piecewise_smooth_complex(surface, options)`.
   /// \throws what that function throws.
   template <class Surface, class Options>
   Polyhedral_oracle_3(const Surface& surface, const Options& options)
