@@ -110,7 +110,6 @@ struct Criteria_3
   double facet_shape = 2;          ///< largest circumradius / shortest edge of a boundary facet; 0: no bound
   double cell_shape = 2;           ///< largest circumradius / shortest edge of a cell; 0: no bound
   bool topology = false; ///< the vertices of a boundary facet lie on one patch, those of a crease edge on one crease
-  bool manifold = false; ///< the boundary of the mesh is a 2-manifold
   /// As far as this from the surface optimisation may bring facets and crease edges, in the input's units, though the
   /// approximation doesn't ask for more. 0: not beyond the farthest of them before it began.
   Length_field_3<K> deviation;
