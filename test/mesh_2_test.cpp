@@ -13,6 +13,7 @@
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
 #include <CGAL/Delaunay_mesher_2.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
