@@ -8,6 +8,8 @@
 
 #include <weft/spatial/Criteria_3.h>
 
+#include <CGAL/Kernel/global_functions.h>
+
 #include <array>
 #include <cmath>
 #include <functional>

@@ -11,6 +11,7 @@
 #include <weft/spatial/oracle_hits_3.h>
 
 #include <CGAL/Bbox_3.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <cmath>
