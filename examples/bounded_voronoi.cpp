@@ -8,7 +8,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <cstdlib>
 #include <iostream>
-#include <weft/planar/Bounded_voronoi_diagram_2.h>
+#include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
 
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Cdt = CGAL::Constrained_Delaunay_triangulation_2<K>;

@@ -6,7 +6,7 @@
 #ifndef WEFT_EXAMPLES_CUSTOM_CRITERION_H
 #define WEFT_EXAMPLES_CUSTOM_CRITERION_H
 
-#include <weft/spatial/Criteria_3.h>
+#include <weft/spatial/criteria/Criteria_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
 

@@ -6,9 +6,9 @@
 #ifndef WEFT_EXAMPLES_CUSTOM_ORACLE_H
 #define WEFT_EXAMPLES_CUSTOM_ORACLE_H
 
-#include <weft/spatial/Feature_incidence_3.h>
-#include <weft/spatial/No_folds_3.h>
-#include <weft/spatial/oracle_hits_3.h>
+#include <weft/spatial/domain/No_folds_3.h>
+#include <weft/spatial/domain/oracle_hits_3.h>
+#include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/squared_distance_3.h>

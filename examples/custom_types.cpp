@@ -10,8 +10,8 @@
 
 #include <weft/IO/write_mesh_3.h>
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/smooth_3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/optimise/smooth_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -9,8 +9,8 @@
 #include <weft/IO/read_pslg.h>
 #include <weft/IO/write_mesh_2.h>
 #include <weft/make_mesh_2.h>
-#include <weft/planar/insert_pslg.h>
-#include <weft/sizing/Lfs_sizing_2.h>
+#include <weft/planar/graph/insert_pslg.h>
+#include <weft/planar/sizing/Lfs_sizing_2.h>
 
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
 

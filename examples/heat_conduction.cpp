@@ -11,7 +11,7 @@
 //! [includes]
 #include <weft/IO/read_surface.h>
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/features_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -6,8 +6,8 @@
 
 #include <weft/IO/write_mesh_3.h>
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/Implicit_oracle_3.h>
-#include <weft/spatial/Labelled_oracle_3.h>
+#include <weft/spatial/domain/Implicit_oracle_3.h>
+#include <weft/spatial/domain/Labelled_oracle_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

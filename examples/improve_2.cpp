@@ -6,10 +6,10 @@
 #include "command_line.h"
 #include "improve_program.h"
 
+#include <weft/improve_2.h>
 #include <weft/IO/read_triangle_mesh.h>
-#include <weft/IO/report_json.h>
 #include <weft/IO/write_mesh_2.h>
-#include <weft/optimise_2.h>
+#include <weft/IO/write_report_json_2.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -125,7 +125,7 @@ Status run(const Request& request)
       [&request](const Mesh& input, const weft::Visitor& visitor) {
         weft::Improve_options_2 options = request.options;
         options.visitor = visitor;
-        return weft::optimise_2(input, options);
+        return weft::improve_2(input, options);
       },
       "", [](const std::string& name, const Mesh& mesh) { weft::IO::write_mesh_2(name, mesh); },
       [](const std::string& name, const weft::Improve_report_2& report) { weft::IO::write_report_json(name, report); },

@@ -7,10 +7,10 @@
 #include "command_line.h"
 #include "improve_program.h"
 
+#include <weft/improve_3.h>
 #include <weft/IO/read_tetrahedral_mesh.h>
-#include <weft/IO/report_json_3.h>
 #include <weft/IO/write_mesh_3.h>
-#include <weft/optimise_3.h>
+#include <weft/IO/write_report_json_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -147,7 +147,7 @@ Status run(const Request& request)
       [&request](const Mesh& input, const weft::Visitor& visitor) {
         weft::Improve_options_3 options = request.options;
         options.visitor = visitor;
-        return weft::optimise_3(input, options);
+        return weft::improve_3(input, options);
       },
       request.options.boundary == weft::Boundary_3::slide ? "; --boundary fixed takes any boundary" : "",
       [](const std::string& name, const Mesh& mesh) { weft::IO::write_mesh_3(name, mesh); },

@@ -10,7 +10,7 @@
 #include "meshing_progress.h"
 
 #include <weft/errors.h>
-#include <weft/IO/svg_histogram.h>
+#include <weft/IO/write_angle_histogram_svg.h>
 #include <weft/report.h>
 
 #include <filesystem>

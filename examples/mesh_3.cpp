@@ -8,17 +8,17 @@
 
 #include <weft/IO/read_label_image.h>
 #include <weft/IO/read_surface.h>
-#include <weft/IO/report_json_3.h>
-#include <weft/IO/svg_histogram.h>
+#include <weft/IO/write_angle_histogram_svg.h>
 #include <weft/IO/write_mesh_3.h>
+#include <weft/IO/write_report_json_3.h>
 #include <weft/make_mesh_3.h>
 #include <weft/mesh_surface_3.h>
-#include <weft/spatial/features_3.h>
-#include <weft/spatial/Label_image_3.h>
-#include <weft/spatial/merge_surfaces_3.h>
-#include <weft/spatial/Polyhedral_oracle_3.h>
-#include <weft/spatial/quality_3.h>
-#include <weft/spatial/repair_surface_3.h>
+#include <weft/spatial/domain/Label_image_3.h>
+#include <weft/spatial/domain/Polyhedral_oracle_3.h>
+#include <weft/spatial/mesh/quality_3.h>
+#include <weft/spatial/surface/merge_surfaces_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
+#include <weft/spatial/surface/repair_surface_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

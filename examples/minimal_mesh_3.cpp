@@ -7,7 +7,7 @@
 #include <weft/IO/read_surface.h>
 #include <weft/IO/write_mesh_3.h>
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/features_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 int main()
 {

@@ -8,7 +8,7 @@
 #include <weft/IO/read_pslg.h>
 #include <weft/IO/write_mesh_2.h>
 #include <weft/make_mesh_2.h>
-#include <weft/planar/insert_pslg.h>
+#include <weft/planar/graph/insert_pslg.h>
 
 #include <cstdlib>
 #include <filesystem>

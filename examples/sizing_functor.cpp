@@ -8,7 +8,7 @@
 #include <iostream>
 #include <weft/IO/write_mesh_2.h>
 #include <weft/make_mesh_2.h>
-#include <weft/planar/quality_2.h>
+#include <weft/planar/mesh/quality_2.h>
 
 using Cdt = weft::Mesh_triangulation_2<>;
 

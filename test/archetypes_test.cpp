@@ -12,10 +12,10 @@
 
 #include <weft/make_mesh_2.h>
 #include <weft/make_mesh_3.h>
-#include <weft/planar/validate_2.h>
-#include <weft/spatial/features_3.h>
-#include <weft/spatial/smooth_3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/planar/check/validate_2.h>
+#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/optimise/smooth_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
 

@@ -15,8 +15,8 @@
 #include <random>
 #include <utility>
 #include <vector>
-#include <weft/planar/Bounded_voronoi_diagram_2.h>
-#include <weft/planar/Triangulation_2.h>
+#include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
+#include <weft/planar/triangulation/Mesh_triangulation_2.h>
 
 namespace {
 
@@ -251,8 +251,8 @@ std::map<std::array<Coordinates, 3>, std::array<Coordinates, 2>> tags_of(const D
 TEST_CASE("the blindness predicate agrees with an exactly constructed circumcenter")
 {
   Random random(1);
-  const weft::Side_of_circumcenter_2<K> side;
-  const weft::Is_blinded_by_2<K> is_blinded;
+  const weft::internal::Side_of_circumcenter_2<K> side;
+  const weft::internal::Is_blinded_by_2<K> is_blinded;
   int degenerate = 0, blinded = 0;
   const auto check = [&](const Point& a, const Point& b, const Point& c, const Point& s, const Point& t) {
     if (CGAL::collinear(a, b, c) || s == t) return;

@@ -5,9 +5,9 @@
 
 #include "spatial_fixtures.h"
 
-#include <weft/spatial/quality_3.h>
-#include <weft/spatial/to_c3t3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/spatial/cgal/to_c3t3.h>
+#include <weft/spatial/mesh/quality_3.h>
+#include <weft/spatial/mesh/validate_3.h>
 
 #include <CGAL/exude_mesh_3.h>
 

@@ -4,9 +4,9 @@
 
 #include "meshing_fixtures_3.h"
 
-#include <weft/spatial/Implicit_oracle_3.h>
-#include <weft/spatial/Label_image_3.h>
-#include <weft/spatial/merge_surfaces_3.h>
+#include <weft/spatial/domain/Implicit_oracle_3.h>
+#include <weft/spatial/domain/Label_image_3.h>
+#include <weft/spatial/surface/merge_surfaces_3.h>
 
 #include <functional>
 #include <map>

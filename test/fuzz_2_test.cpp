@@ -6,7 +6,7 @@
 #include "planar_fixtures.h"
 
 #include <weft/make_mesh_2.h>
-#include <weft/sizing/Lfs_sizing_2.h>
+#include <weft/planar/sizing/Lfs_sizing_2.h>
 
 #include <atomic>
 #include <chrono>

@@ -6,10 +6,10 @@
 
 #include "planar_fixtures.h"
 
+#include <weft/improve_2.h>
 #include <weft/IO/read_triangle_mesh.h>
 #include <weft/IO/write_mesh_2.h>
-#include <weft/optimise_2.h>
-#include <weft/planar/from_triangulation_2.h>
+#include <weft/planar/mesh/from_triangulation_2.h>
 
 #include <catch2/catch.hpp>
 
@@ -196,7 +196,7 @@ void check_same_domain(const Mesh& before, const Mesh& after, double tolerance =
 std::string error_of(Soup soup)
 {
   try {
-    weft::optimise_2(weft::assemble_mesh_2(std::move(soup)).mesh);
+    weft::improve_2(weft::assemble_mesh_2(std::move(soup)).mesh);
   } catch (const weft::Domain_error& error) {
     return error.what();
   }
@@ -250,7 +250,7 @@ TEST_CASE("a mesh of random vertices becomes a good one of the same domain with 
   const auto pslg = polygon({Point(0, 0), Point(3, 0), Point(3, 1), Point(1, 1), Point(1, 2), Point(0, 2)});
   const Mesh mesh = random_mesh(pslg, 600, 7);
   for (const Boundary_2 boundary : both) {
-    const auto [result, report] = weft::optimise_2(mesh, options_of(boundary));
+    const auto [result, report] = weft::improve_2(mesh, options_of(boundary));
     CAPTURE(boundary == Boundary_2::fixed, report);
     check_valid(result);
     check_same_domain(mesh, result);
@@ -273,7 +273,7 @@ TEST_CASE("the manual's lines improve a mesh from a file and write it")
   weft::IO::write_mesh_2("part.msh", grid(8, 6, 0.6));
 
   const auto input = weft::IO::read_triangle_mesh<K>("part.msh"); // input.notes: what was left out
-  const auto [mesh, report] = weft::optimise_2(input.mesh);
+  const auto [mesh, report] = weft::improve_2(input.mesh);
   std::cout << report; // before and after
   weft::IO::write_mesh_2("better.msh", mesh);
 
@@ -290,7 +290,7 @@ TEST_CASE("inverted triangles and slivers are mended, with a fixed boundary, too
   for (const double reach : {0.2, 0.6, 1.5})
     for (const Boundary_2 boundary : both) {
       const Mesh mesh = grid(16, 12, reach);
-      const auto [result, report] = weft::optimise_2(mesh, options_of(boundary));
+      const auto [result, report] = weft::improve_2(mesh, options_of(boundary));
       CAPTURE(reach, boundary == Boundary_2::fixed, report);
       CHECK((reach < 0.5 || report.inverted_before > 0));
       CHECK(report.ok());
@@ -325,7 +325,7 @@ TEST_CASE("no mesh gets worse")
       for (const double min_angle : {20., 60.}) {
         Options options = options_of(boundary);
         options.min_angle = min_angle;
-        const auto [result, report] = weft::optimise_2(meshes[i], options);
+        const auto [result, report] = weft::improve_2(meshes[i], options);
         CAPTURE(i, boundary == Boundary_2::fixed, min_angle, report);
         const weft::Quality_2 before = weft::measure_quality_2(meshes[i]), after = weft::measure_quality_2(result);
         CHECK(report.inverted_after <= report.inverted_before);
@@ -338,7 +338,7 @@ TEST_CASE("no mesh gets worse")
 TEST_CASE("an angle of the input is the bound, and is reported")
 {
   const Mesh mesh = random_mesh(polygon({Point(0, 0), Point(4, 0), Point(4, 1)}), 80, 1);
-  const auto [result, report] = weft::optimise_2(mesh);
+  const auto [result, report] = weft::improve_2(mesh);
   const double angle = std::atan(0.25) * 180 / M_PI;
   CAPTURE(report);
   CHECK(report.input_bound == Approx(angle));
@@ -349,7 +349,7 @@ TEST_CASE("an angle of the input is the bound, and is reported")
 TEST_CASE("curves with badly spaced vertices are respaced within the deviation, or stay to the last bit")
 {
   const Mesh mesh = random_mesh(rough_circle(60), 250, 4);
-  const auto [result, report] = weft::optimise_2(mesh);
+  const auto [result, report] = weft::improve_2(mesh);
   CAPTURE(report);
   check_valid(result);
   CHECK(report.after.smallest_angle.degrees >= 35);
@@ -358,7 +358,7 @@ TEST_CASE("curves with badly spaced vertices are respaced within the deviation, 
     CHECK(std::hypot(result.points[e[0]].x(), result.points[e[0]].y()) == Approx(1).epsilon(0.005));
   Options exact;
   exact.corner_angle = 0;
-  const auto kept = weft::optimise_2(mesh, exact);
+  const auto kept = weft::improve_2(mesh, exact);
   check_same_domain(mesh, kept.mesh, 1e-12);
   std::set<Point> points(kept.mesh.points.begin(), kept.mesh.points.end());
   for (const auto& e : mesh.edges) CHECK(points.count(mesh.points[e[0]]) == 1);
@@ -371,7 +371,7 @@ TEST_CASE("regions, the edges between them and tags stay")
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) // the bottom has a tag of its own
     if (mesh.points[mesh.edges[e][0]].y() == 0 && mesh.points[mesh.edges[e][1]].y() == 0) mesh.edge_tags[e] = 5;
   for (const Boundary_2 boundary : both) {
-    const auto [result, report] = weft::optimise_2(mesh, options_of(boundary));
+    const auto [result, report] = weft::improve_2(mesh, options_of(boundary));
     CAPTURE(boundary == Boundary_2::fixed, report);
     check_valid(result);
     check_same_domain(mesh, result);
@@ -395,7 +395,7 @@ TEST_CASE("holes and parts that touch at a point stay")
   };
   const Mesh mesh = grid(16, 16, 0.4, region);
   for (const Boundary_2 boundary : both) {
-    const auto [result, report] = weft::optimise_2(mesh, options_of(boundary));
+    const auto [result, report] = weft::improve_2(mesh, options_of(boundary));
     CAPTURE(boundary == Boundary_2::fixed, report);
     check_valid(result);
     check_same_domain(mesh, result);
@@ -420,7 +420,7 @@ TEST_CASE("edges inside that are listed, corners and fixed vertices stay")
   for (const Boundary_2 boundary : both) {
     Options options = options_of(boundary);
     options.fixed_vertices = {8 * 11 + 3, 4}; // inside, and on the bottom
-    const auto [result, report] = weft::optimise_2(mesh, options);
+    const auto [result, report] = weft::improve_2(mesh, options);
     check_valid(result);
     const std::set<Point> points(result.points.begin(), result.points.end());
     for (const Point& p : {Point(4, 2), Point(3, 8), Point(4, 0), Point(3, 5), Point(7, 5)})
@@ -438,14 +438,14 @@ TEST_CASE("edges inside that are listed, corners and fixed vertices stay")
 TEST_CASE("angles and counts hardly depend on where and how large the mesh is")
 {
   const Mesh mesh = random_mesh(rough_circle(40), 200, 9);
-  const auto reference = weft::optimise_2(mesh);
+  const auto reference = weft::improve_2(mesh);
   for (const double scale : {1e-20, 1., 1e15})
     for (const double turn : {0., 0.7}) {
       Mesh moved = mesh;
       for (Point& p : moved.points)
         p = Point(scale * (std::cos(turn) * p.x() - std::sin(turn) * p.y() + 3),
                   scale * (std::sin(turn) * p.x() + std::cos(turn) * p.y() - 2));
-      const auto [result, report] = weft::optimise_2(moved);
+      const auto [result, report] = weft::improve_2(moved);
       CAPTURE(scale, turn, report);
       check_valid(result);
       CHECK(report.after.smallest_angle.degrees >= 35);
@@ -460,11 +460,11 @@ TEST_CASE("the result is the same for any number of threads and wherever memory 
   for (const Boundary_2 boundary : both) {
     Options options = options_of(boundary);
     options.min_angle = 40; // some work for every step
-    const Mesh reference = weft::optimise_2(mesh, options).mesh;
+    const Mesh reference = weft::improve_2(mesh, options).mesh;
     for (const int threads : {1, 4}) {
       const planar::Memory_noise noise(static_cast<unsigned>(threads));
       options.threads = threads;
-      CHECK(same(weft::optimise_2(mesh, options).mesh, reference));
+      CHECK(same(weft::improve_2(mesh, options).mesh, reference));
     }
   }
 }
@@ -474,12 +474,12 @@ TEST_CASE("a run that is stopped has a valid mesh that isn't worse")
   const Mesh mesh = random_mesh(square_graph(1), 300, 5);
   Options options;
   options.time_limit = 0;
-  const auto late = weft::optimise_2(mesh, options);
+  const auto late = weft::improve_2(mesh, options);
   CHECK(late.report.stop_reason == weft::Stop_reason::time_limit);
   int calls = 0;
   options = Options();
   options.visitor = [&calls](const weft::Progress&) { return ++calls < 5; };
-  const auto cancelled = weft::optimise_2(mesh, options);
+  const auto cancelled = weft::improve_2(mesh, options);
   CHECK(cancelled.report.stop_reason == weft::Stop_reason::cancelled);
   for (const auto& [result, report] : {late, cancelled}) {
     CHECK(report.after.smallest_angle.degrees >= report.before.smallest_angle.degrees - 1e-9);
@@ -522,13 +522,13 @@ TEST_CASE("what isn't a mesh is refused with the elements to blame")
   Mesh broken = weft::assemble_mesh_2(good).mesh;
   broken.edges.pop_back();
   broken.edge_tags.pop_back();
-  CHECK_THROWS_AS(weft::optimise_2(broken), weft::Domain_error);
+  CHECK_THROWS_AS(weft::improve_2(broken), weft::Domain_error);
   Options options;
   options.fixed_vertices = {99};
-  CHECK_THROWS_AS(weft::optimise_2(weft::assemble_mesh_2(good).mesh, options), weft::Option_error);
+  CHECK_THROWS_AS(weft::improve_2(weft::assemble_mesh_2(good).mesh, options), weft::Option_error);
   options = Options();
   options.min_angle = 61;
-  CHECK_THROWS_AS(weft::optimise_2(weft::assemble_mesh_2(good).mesh, options), weft::Option_error);
+  CHECK_THROWS_AS(weft::improve_2(weft::assemble_mesh_2(good).mesh, options), weft::Option_error);
 }
 
 TEST_CASE("what doesn't matter is left out and noted, and triangles without area are mended")
@@ -542,7 +542,7 @@ TEST_CASE("what doesn't matter is left out and noted, and triangles without area
   CHECK(imported.notes.size() == 3);
   CHECK(imported.mesh.points.size() == 5);
   for (const Boundary_2 boundary : both) {
-    const auto [result, report] = weft::optimise_2(imported.mesh, options_of(boundary));
+    const auto [result, report] = weft::improve_2(imported.mesh, options_of(boundary));
     CAPTURE(report);
     CHECK(report.inverted_before == 1);
     CHECK(report.inverted_after == 0);

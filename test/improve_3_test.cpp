@@ -5,12 +5,12 @@
 
 #include "spatial_fixtures.h"
 
+#include <weft/improve_3.h>
 #include <weft/IO/read_tetrahedral_mesh.h>
 #include <weft/IO/write_mesh_3.h>
-#include <weft/optimise_3.h>
-#include <weft/spatial/assemble_mesh_3.h>
-#include <weft/spatial/merge_surfaces_3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/spatial/mesh/assemble_mesh_3.h>
+#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/surface/merge_surfaces_3.h>
 
 #include <catch2/catch.hpp>
 
@@ -129,7 +129,7 @@ TEST_CASE("a ball full of slivers becomes a good mesh whose boundary vertices li
     Options options;
     options.delaunay = delaunay;
     options.min_dihedral_angle = 18;
-    const auto [result, report] = weft::optimise_3(mesh, options);
+    const auto [result, report] = weft::improve_3(mesh, options);
     CAPTURE(delaunay, report);
     CHECK(report.before.smallest_dihedral.degrees < 2);
     CHECK(report.after.smallest_dihedral.degrees >= 18);
@@ -153,7 +153,7 @@ TEST_CASE("the manual's lines improve a mesh from a file and write it")
   weft::Improve_options_3 options;
   options.min_dihedral_angle = 28;            // degrees
   options.boundary = weft::Boundary_3::slide; // or fixed
-  const auto [mesh, report] = weft::optimise_3(input.mesh, options);
+  const auto [mesh, report] = weft::improve_3(input.mesh, options);
   std::cout << report; // before and after
   weft::IO::write_mesh_3("part.vtu", mesh);
 
@@ -172,7 +172,7 @@ TEST_CASE("patches, creases and corners keep their names, and sharp edges found 
   for (int& s : mesh.subdomains) s = 4;
   for (auto& at : mesh.locations)
     if (at.dimension == 3) at.index = 4;
-  const auto [result, report] = weft::optimise_3(mesh);
+  const auto [result, report] = weft::improve_3(mesh);
   CAPTURE(report);
   check_valid(result);
   CHECK(std::set<int>(result.patches.begin(), result.patches.end()) ==
@@ -184,7 +184,7 @@ TEST_CASE("patches, creases and corners keep their names, and sharp edges found 
   CHECK(report.after.volume == Approx(27));
   const auto bare = weft::assemble_mesh_3(mesh.points, mesh.cells).mesh; // no tags at all
   CHECK(bare.edges.empty());
-  const auto found = weft::optimise_3(bare).mesh;
+  const auto found = weft::improve_3(bare).mesh;
   CHECK(found.corners.size() == 8);
   CHECK(std::set<int>(found.creases.begin(), found.creases.end()).size() == 12);
   CHECK(std::set<int>(found.patches.begin(), found.patches.end()) == std::set<int>{0});
@@ -196,14 +196,14 @@ TEST_CASE("a mesh is improved on a domain that is given")
   const auto bare = weft::assemble_mesh_3(mesh.points, mesh.cells).mesh;
   const weft::Polyhedral_oracle_3<K> oracle(
       weft::piecewise_smooth_complex(mesh.points, mesh.facets, weft::Feature_options{60}));
-  const auto [result, report] = weft::optimise_3(bare, oracle, Options());
+  const auto [result, report] = weft::improve_3(bare, oracle, Options());
   CAPTURE(report);
   check_valid(result);
   CHECK(report.ok());
   CHECK(result.corners.size() == 8);
   CHECK(std::set<int>(result.patches.begin(), result.patches.end()).size() == 6);
   CHECK(report.after.volume == Approx(27));
-  CHECK_THROWS_AS(weft::optimise_3(bare, oracle, fixed()), weft::Option_error);
+  CHECK_THROWS_AS(weft::improve_3(bare, oracle, fixed()), weft::Option_error);
 }
 
 /// Points of a sphere, nearly evenly.
@@ -266,7 +266,7 @@ TEST_CASE("two boxes with a common face: the interface slides on itself, and eac
     Options options;
     options.delaunay = delaunay;
     options.min_dihedral_angle = 18;
-    const auto [result, report] = weft::optimise_3(mesh, options);
+    const auto [result, report] = weft::improve_3(mesh, options);
     CAPTURE(delaunay, report);
     CHECK(report.ok());
     CHECK(report.notes.empty());
@@ -290,7 +290,7 @@ TEST_CASE("a ball in a ball: both boundaries slide on themselves, with a fixed b
   const Mesh mesh = ball_in_ball();
   Options options;
   options.min_dihedral_angle = 18;
-  const auto [result, report] = weft::optimise_3(mesh, options);
+  const auto [result, report] = weft::improve_3(mesh, options);
   CAPTURE(report);
   CHECK(report.before.smallest_dihedral.degrees < 2);
   CHECK(report.after.smallest_dihedral.degrees >= 18);
@@ -301,9 +301,9 @@ TEST_CASE("a ball in a ball: both boundaries slide on themselves, with a fixed b
   CHECK(volume_of(result, 7) == Approx(volume_of(mesh, 7)).epsilon(0.03));
   CHECK(farthest_from(mesh, result) < 1e-9);
   check_valid(result);
-  CHECK(same(result, weft::optimise_3(mesh, options).mesh));
+  CHECK(same(result, weft::improve_3(mesh, options).mesh));
   options.boundary = Boundary_3::fixed;
-  CHECK(facets_of(weft::optimise_3(mesh, options).mesh) == facets_of(mesh));
+  CHECK(facets_of(weft::improve_3(mesh, options).mesh) == facets_of(mesh));
 }
 
 TEST_CASE("several subdomains are improved on a domain that is given")
@@ -318,7 +318,7 @@ TEST_CASE("several subdomains are improved on a domain that is given")
       surfaces[0].polygons.push_back(corners);
   }
   const weft::Polyhedral_oracle_3<K> oracle(weft::piecewise_smooth_complex(surfaces));
-  const auto [result, report] = weft::optimise_3(mesh, oracle, Options());
+  const auto [result, report] = weft::improve_3(mesh, oracle, Options());
   CAPTURE(report);
   CHECK(report.ok());
   CHECK(report.after.smallest_dihedral.degrees >= 15);
@@ -337,13 +337,13 @@ TEST_CASE("subdomains whose boundaries aren't manifold or meet improperly don't 
     mesh.subdomains[c] = (x > 1) == (y > 1) && (y > 1) == (z > 1) ? 2 : 1;
   }
   const Mesh touching = weft::assemble_mesh_3(mesh.points, mesh.cells, mesh.subdomains).mesh;
-  CHECK_THROWS_AS(weft::optimise_3(touching), weft::Domain_error);
-  CHECK(facets_of(weft::optimise_3(touching, fixed()).mesh) == facets_of(touching));
+  CHECK_THROWS_AS(weft::improve_3(touching), weft::Domain_error);
+  CHECK(facets_of(weft::improve_3(touching, fixed()).mesh) == facets_of(touching));
   Mesh crossing = fixtures::box(4, true).mesh;
   for (std::size_t v = 0; v < crossing.points.size(); ++v)
     if (crossing.locations[v] == fixtures::Location{2, 6} && crossing.points[v] == Point(2, 2, 2))
       crossing.points[v] = Point(9, 2, 2); // out at the other end
-  CHECK_THROWS_AS(weft::optimise_3(crossing), weft::Domain_error);
+  CHECK_THROWS_AS(weft::improve_3(crossing), weft::Domain_error);
 }
 
 TEST_CASE("several subdomains keep their interfaces with a fixed boundary")
@@ -357,7 +357,7 @@ TEST_CASE("several subdomains keep their interfaces with a fixed boundary")
     }
   Options options = fixed();
   options.min_dihedral_angle = 25;
-  const auto [result, report] = weft::optimise_3(shaken, options);
+  const auto [result, report] = weft::improve_3(shaken, options);
   CAPTURE(report);
   CHECK(facets_of(result) == facets_of(mesh));
   CHECK(volume_of(result, 1) == Approx(32));
@@ -372,7 +372,7 @@ TEST_CASE("with a fixed boundary every facet stays to the last bit and the worst
 {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Mesh mesh = ball(seed);
-    const auto [result, report] = weft::optimise_3(mesh, fixed());
+    const auto [result, report] = weft::improve_3(mesh, fixed());
     CAPTURE(seed, report);
     CHECK(facets_of(result) == facets_of(mesh));
     CHECK(report.after.smallest_dihedral.degrees > report.before.smallest_dihedral.degrees);
@@ -386,14 +386,14 @@ TEST_CASE("with a fixed boundary every facet stays to the last bit and the worst
 TEST_CASE("inverted cells are turned over")
 {
   const Mesh mesh = shaken_box(4, 0.8);
-  const auto [result, report] = weft::optimise_3(mesh, fixed());
+  const auto [result, report] = weft::improve_3(mesh, fixed());
   CAPTURE(report);
   CHECK(report.inverted_before > 20);
   CHECK(report.inverted_after == 0);
   CHECK(report.after.smallest_dihedral.degrees >= 12);
   CHECK(facets_of(result) == facets_of(mesh));
   check_valid(result);
-  const auto slid = weft::optimise_3(mesh);
+  const auto slid = weft::improve_3(mesh);
   CHECK(slid.report.inverted_after == 0);
   check_valid(slid.mesh);
 }
@@ -406,7 +406,7 @@ TEST_CASE("fixed vertices stay where they are, whatever else moves")
     options.boundary = slides ? Boundary_3::slide : Boundary_3::fixed;
     options.min_dihedral_angle = 8;
     for (std::size_t v = 0; v < mesh.points.size(); v += 7) options.fixed_vertices.push_back(v);
-    const auto [result, report] = weft::optimise_3(mesh, options);
+    const auto [result, report] = weft::improve_3(mesh, options);
     const std::set<Point> points(result.points.begin(), result.points.end());
     std::size_t missing = 0;
     for (const std::size_t v : options.fixed_vertices) missing += points.count(mesh.points[v]) == 0;
@@ -416,7 +416,7 @@ TEST_CASE("fixed vertices stay where they are, whatever else moves")
     CHECK(report.after.cells_below(5) < report.before.cells_below(5));
     options.delaunay = true;
     if (!slides) continue;
-    const auto perturbed = weft::optimise_3(mesh, options).mesh;
+    const auto perturbed = weft::improve_3(mesh, options).mesh;
     const std::set<Point> left(perturbed.points.begin(), perturbed.points.end());
     for (const std::size_t v : options.fixed_vertices) CHECK(left.count(mesh.points[v]) == 1);
   }
@@ -431,9 +431,9 @@ TEST_CASE("the same input gives the same mesh, whatever the number of threads")
     Options options;
     options.boundary = boundary;
     options.min_dihedral_angle = 12;
-    const auto first = weft::optimise_3(mesh, options).mesh;
+    const auto first = weft::improve_3(mesh, options).mesh;
     options.threads = 3;
-    CHECK(same(first, weft::optimise_3(mesh, options).mesh));
+    CHECK(same(first, weft::improve_3(mesh, options).mesh));
   }
 }
 
@@ -446,7 +446,7 @@ TEST_CASE("a run that is stopped at any time leaves a valid mesh that isn't wors
       options.boundary = boundary;
       options.min_dihedral_angle = 12;
       options.visitor = [&calls](const weft::Progress&) { return calls-- > 0; };
-      const auto [result, report] = weft::optimise_3(mesh, options);
+      const auto [result, report] = weft::improve_3(mesh, options);
       CHECK((report.stop_reason == weft::Stop_reason::cancelled || calls >= 0));
       CHECK(report.after.smallest_dihedral.degrees >= report.before.smallest_dihedral.degrees);
       check_valid(result);
@@ -461,7 +461,7 @@ TEST_CASE("little time leaves a valid mesh that isn't worse than before")
       Options options;
       options.boundary = boundary;
       options.time_limit = seconds;
-      const auto [result, report] = weft::optimise_3(mesh, options);
+      const auto [result, report] = weft::improve_3(mesh, options);
       CHECK(report.after.smallest_dihedral.degrees >= report.before.smallest_dihedral.degrees);
       CHECK(result.cells.size() > 0);
       check_valid(result);
@@ -473,25 +473,25 @@ TEST_CASE("options out of range and arrays that aren't a mesh are refused")
   const Mesh mesh = ball();
   Options options;
   options.min_dihedral_angle = 91;
-  CHECK_THROWS_AS(weft::optimise_3(mesh, options), weft::Option_error);
+  CHECK_THROWS_AS(weft::improve_3(mesh, options), weft::Option_error);
   options = fixed();
   options.fixed_vertices = {mesh.points.size()};
-  CHECK_THROWS_AS(weft::optimise_3(mesh, options), weft::Option_error);
+  CHECK_THROWS_AS(weft::improve_3(mesh, options), weft::Option_error);
   Mesh broken = mesh;
   broken.cells[0][0] = broken.cells[0][1];
-  CHECK_THROWS_AS(weft::optimise_3(broken), weft::Domain_error);
+  CHECK_THROWS_AS(weft::improve_3(broken), weft::Domain_error);
   broken = mesh;
   broken.facets.pop_back();
   broken.patches.pop_back();
-  CHECK_THROWS_AS(weft::optimise_3(broken, fixed()), weft::Domain_error);
+  CHECK_THROWS_AS(weft::improve_3(broken, fixed()), weft::Domain_error);
 }
 
 // ---- local changes
 
 namespace {
 
-using Editable = weft::Editable_mesh_3<K>;
-using Operations = weft::Local_operations_3<K>;
+using Editable = weft::internal::Editable_mesh_3<K>;
+using Operations = weft::internal::Local_operations_3<K>;
 
 double worst_of(const Editable& mesh, const Operations& operations)
 {

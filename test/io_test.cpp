@@ -5,7 +5,7 @@
 
 #include <weft/IO/read_pslg.h>
 #include <weft/IO/write_mesh_2.h>
-#include <weft/planar/insert_pslg.h>
+#include <weft/planar/graph/insert_pslg.h>
 
 #include <catch2/catch.hpp>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>

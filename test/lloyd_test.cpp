@@ -5,11 +5,11 @@
 
 #include "planar_fixtures.h"
 
-#include <weft/planar/Bounded_voronoi_diagram_2.h>
-#include <weft/planar/lloyd_2.h>
-#include <weft/planar/quadrature_2.h>
-#include <weft/planar/Working_mesh_2.h>
-#include <weft/relocate/Relocator_2.h>
+#include <weft/planar/relax/Lloyd_2.h>
+#include <weft/planar/relax/quadrature_2.h>
+#include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
+#include <weft/planar/triangulation/Relocator_2.h>
+#include <weft/planar/working/Working_mesh_2.h>
 #include <weft/sizing/Uniform_sizing.h>
 
 namespace {
@@ -21,8 +21,8 @@ using Uniform = weft::Uniform_sizing<>;
 template <class Sizing>
 struct Mesh_of
 {
-  using Mesh = weft::Working_mesh_2<Cdt, Sizing>;
-  using Lloyd = weft::Lloyd_2<Mesh>;
+  using Mesh = weft::internal::Working_mesh_2<Cdt, Sizing>;
+  using Lloyd = weft::internal::Lloyd_2<Mesh>;
 
   Mesh_of(const Pslg& pslg, Sizing field, unsigned seed, int inside, int on_constraints)
       : cdt(triangulate(pslg)), sizing(std::move(field)), mesh(cdt, sizing)
@@ -54,7 +54,7 @@ struct Mesh_of
       vertices.push_back(v);
       targets.push_back(lloyd.target(v).point);
     }
-    weft::Relocator_2<Cdt>(cdt).move(vertices, targets);
+    weft::internal::Relocator_2<Cdt>(cdt).move(vertices, targets);
     for (const auto v : vertices) mesh.update_target(v);
   }
 
@@ -268,11 +268,12 @@ TEST_CASE("the quadrature over a triangle is exact for quadratic moments and con
 {
   const std::array<double, 2> a{0, 0}, b{1, 0}, c{0, 1};
   for (const int parts : {1, 2, 3, 7, 10, 100}) {
-    const auto one = weft::integrate_triangle(a, b, c, parts, [](double, double) { return 1.0; });
+    const auto one = weft::internal::integrate_triangle(a, b, c, parts, [](double, double) { return 1.0; });
     CHECK(one.mass == Approx(0.5));
     CHECK(one.x == Approx(1 / 6.));
     CHECK(one.y == Approx(1 / 6.));
-    const auto linear = weft::integrate_triangle(a, b, c, parts, [](double x, double y) { return 1 + 2 * x - 3 * y; });
+    const auto linear =
+        weft::internal::integrate_triangle(a, b, c, parts, [](double x, double y) { return 1 + 2 * x - 3 * y; });
     CHECK(linear.mass == Approx(0.5 + 2 / 6. - 3 / 6.));
     CHECK(linear.x == Approx(1 / 6. + 2 * monomial_integral(2, 0) - 3 * monomial_integral(1, 1)));
     CHECK(linear.y == Approx(1 / 6. + 2 * monomial_integral(1, 1) - 3 * monomial_integral(0, 2)).margin(1e-12));
@@ -280,7 +281,7 @@ TEST_CASE("the quadrature over a triangle is exact for quadratic moments and con
   const auto high = [](double x, double y) { return std::pow(x, 4) * y * y; };
   double last = 1;
   for (const int parts : {16, 256, 4096}) {
-    const auto m = weft::integrate_triangle(a, b, c, parts, high);
+    const auto m = weft::internal::integrate_triangle(a, b, c, parts, high);
     const double error = std::abs(m.mass / monomial_integral(4, 2) - 1) + std::abs(m.x / monomial_integral(5, 2) - 1) +
                          std::abs(m.y / monomial_integral(4, 3) - 1);
     CHECK(error < last / 16); // at least second order in the parts' diameter; the rule has order three
@@ -294,17 +295,17 @@ TEST_CASE("the quadrature counts triangles that are turned over negative and is 
   const auto density = [](double x, double y) { return 1 + x * x + y; };
   const std::array<double, 2> a{0.1, 0.2}, b{1, 0.3}, c{0.4, 0.9}, middle{0.5, 0.5};
   for (const int parts : {1, 4, 32}) { // with other numbers the halves of a triangle get different numbers of parts
-    const auto there = weft::integrate_triangle(a, b, c, parts, density),
-               back = weft::integrate_triangle(a, c, b, parts, density);
+    const auto there = weft::internal::integrate_triangle(a, b, c, parts, density),
+               back = weft::internal::integrate_triangle(a, c, b, parts, density);
     CHECK(there.mass == Approx(-back.mass));
     CHECK(there.x == Approx(-back.x));
     CHECK(there.y == Approx(-back.y));
   }
-  weft::Moments_2 sum;
-  sum += weft::integrate_triangle(a, b, middle, 3000, density);
-  sum += weft::integrate_triangle(b, c, middle, 3000, density);
-  sum += weft::integrate_triangle(c, a, middle, 3000, density);
-  const auto whole = weft::integrate_triangle(a, b, c, 3000, density);
+  weft::internal::Moments_2 sum;
+  sum += weft::internal::integrate_triangle(a, b, middle, 3000, density);
+  sum += weft::internal::integrate_triangle(b, c, middle, 3000, density);
+  sum += weft::internal::integrate_triangle(c, a, middle, 3000, density);
+  const auto whole = weft::internal::integrate_triangle(a, b, c, 3000, density);
   CHECK(sum.mass == Approx(whole.mass).epsilon(1e-6));
   CHECK(sum.x == Approx(whole.x).epsilon(1e-6));
   CHECK(sum.y == Approx(whole.y).epsilon(1e-6));
@@ -313,16 +314,16 @@ TEST_CASE("the quadrature counts triangles that are turned over negative and is 
 TEST_CASE("the quadrature along a segment converges to closed forms")
 {
   const std::array<double, 2> a{1, 2}, b{4, 6}; // length 5
-  const auto one = weft::integrate_segment(a, b, 1, [](double, double) { return 1.0; });
+  const auto one = weft::internal::integrate_segment(a, b, 1, [](double, double) { return 1.0; });
   CHECK(one.mass == Approx(5));
   CHECK(one.x == Approx(12.5));
   CHECK(one.y == Approx(20));
   // Integral of 5 (1 + 3t)^-3 dt, and the same times x = 1 + 3t.
-  const auto density = [](double x, double) { return weft::linear_density(x); };
+  const auto density = [](double x, double) { return weft::internal::linear_density(x); };
   const double mass = 5 / 6. * (1 - 1 / 16.), x = 5 / 3. * (1 - 1 / 4.);
   double last = 1e9;
   for (const int parts : {4, 16, 64, 256}) {
-    const auto m = weft::integrate_segment(a, b, parts, density);
+    const auto m = weft::internal::integrate_segment(a, b, parts, density);
     const double error = std::abs(m.mass - mass) + std::abs(m.x - x);
     CHECK(error < last / 4); // second order: a sixteenth in the limit
     last = error;

@@ -8,7 +8,7 @@
 
 #include <weft/IO/read_pslg.h>
 #include <weft/make_mesh_2.h>
-#include <weft/sizing/Lfs_sizing_2.h>
+#include <weft/planar/sizing/Lfs_sizing_2.h>
 
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
 #include <CGAL/Delaunay_mesher_2.h>
@@ -342,11 +342,11 @@ Cdt unpolished_mesh(const Pslg& pslg, double size)
 /// Hops until the budget is used up. Returns the number of changes that were kept.
 std::size_t hop(Cdt& cdt, double size, std::size_t insertions, unsigned seed = 0)
 {
-  using Mesh = weft::Working_mesh_2<Cdt, Uniform>;
+  using Mesh = weft::internal::Working_mesh_2<Cdt, Uniform>;
   const Uniform sizing(size);
   Mesh mesh(cdt, sizing, Mesh::Given::relaxable);
-  weft::Polisher_2<Mesh> polisher(mesh);
-  weft::Basin_hopper_2<Mesh> hopper(mesh, polisher, seed);
+  weft::internal::Polisher_2<Mesh> polisher(mesh);
+  weft::internal::Basin_hopper_2<Mesh> hopper(mesh, polisher, seed);
   return hopper.run(1, insertions, [] { return true; });
 }
 

@@ -10,17 +10,17 @@
 #include <weft/IO/read_surface.h>
 #include <weft/make_mesh_3.h>
 #include <weft/mesh_surface_3.h>
-#include <weft/spatial/check_criteria_3.h>
-#include <weft/spatial/check_restricted_3.h>
-#include <weft/spatial/dihedral_angles_3.h>
-#include <weft/spatial/features_3.h>
-#include <weft/spatial/hausdorff_3.h>
-#include <weft/spatial/measure_badness_3.h>
-#include <weft/spatial/perturb_slivers_3.h>
-#include <weft/spatial/refine_3.h>
-#include <weft/spatial/restart_3.h>
-#include <weft/spatial/Steiner_chooser_3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/spatial/criteria/Badness_measure_3.h>
+#include <weft/spatial/criteria/check_criteria_3.h>
+#include <weft/spatial/mesh/dihedral_angles_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/optimise/perturb_slivers_3.h>
+#include <weft/spatial/refine/Batch_refiner_3.h>
+#include <weft/spatial/refine/Steiner_chooser_3.h>
+#include <weft/spatial/refine/Vertex_set_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
 
@@ -321,7 +321,7 @@ TEST_CASE("criteria and options out of range are refused")
   for (const double bad : {-1., not_a_number}) {
     Options floor, relaxation, time;
     floor.size_floor = bad;
-    relaxation.initial_relaxation = bad;
+    relaxation.initial_loosening = bad;
     time.time_limit = bad;
     refuses(good, floor);
     refuses(good, relaxation);
@@ -496,9 +496,9 @@ TEST_CASE("slivers are perturbed away beside what the input's angles make imposs
     for (const auto& c : mesh.cells) {
       const auto at_edge = [&](std::size_t v) { return std::hypot(mesh.points[v].x(), mesh.points[v].y()) < 0.5; };
       if (std::any_of(c.begin(), c.end(), at_edge)) continue;
-      const auto x = weft::cosines_of_extreme_dihedrals(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]],
-                                                        mesh.points[c[3]]);
-      n += weft::degrees_of_cosine(x.smallest) < 12;
+      const auto x = weft::internal::cosines_of_extreme_dihedrals(mesh.points[c[0]], mesh.points[c[1]],
+                                                                  mesh.points[c[2]], mesh.points[c[3]]);
+      n += weft::internal::degrees_of_cosine(x.smallest) < 12;
     }
     return n;
   };
@@ -621,10 +621,10 @@ TEST_CASE("edges form one cycle only if that doesn't meet itself")
   const auto is_cycle = [](Edges edges) {
     std::sort(edges.begin(), edges.end());
     Edges first = edges; // is_one_cycle() changes the order
-    const bool expected = weft::is_one_cycle(first);
+    const bool expected = weft::internal::is_one_cycle(first);
     while (std::next_permutation(edges.begin(), edges.end())) {
       Edges copy = edges;
-      CHECK(weft::is_one_cycle(copy) == expected); // whatever the order
+      CHECK(weft::internal::is_one_cycle(copy) == expected); // whatever the order
     }
     return expected;
   };
@@ -692,7 +692,7 @@ TEST_CASE("the Steiner point chosen for a cell mends no less than its circumcent
   const auto squared = [](const Point& p, const Point& q) { return CGAL::to_double(CGAL::squared_distance(p, q)); };
   // Marks bad cells as refinement does, and returns them, in an order that doesn't depend on memory.
   const auto mark_bad_cells = [&criteria](const Restricted& mesh) {
-    const weft::Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+    const weft::internal::Badness_measure_3<Restricted> measure(mesh, criteria, 1);
     std::vector<Restricted::Cell_handle> bad;
     for (const auto c : mesh.triangulation().finite_cell_handles()) {
       c->set_bad_index(-1);
@@ -716,13 +716,14 @@ TEST_CASE("the Steiner point chosen for a cell mends no less than its circumcent
       const auto bad = mark_bad_cells(mesh);
       REQUIRE(bad.size() == cells);
       const auto c = bad[k];
-      const weft::Badness_measure_3<Restricted> measure(mesh, criteria, 1);
-      weft::Steiner_chooser_3<Restricted> chooser(mesh, measure, 1e-12);
+      const weft::internal::Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+      weft::internal::Steiner_chooser_3<Restricted> chooser(mesh, measure, 1e-12);
       Zone zone;
-      const auto result = choosing ? chooser.choose(c, batch, zone)
-                                   : weft::find_conflict_zone(mesh.triangulation(), c->circumcenter(), c, batch, zone);
-      is_comparable = is_comparable && result == weft::Zone_result::found && !chooser.encroached_facet(zone);
-      if (result != weft::Zone_result::found) continue;
+      const auto result =
+          choosing ? chooser.choose(c, batch, zone)
+                   : weft::internal::find_conflict_zone(mesh.triangulation(), c->circumcenter(), c, batch, zone);
+      is_comparable = is_comparable && result == weft::internal::Zone_result::found && !chooser.encroached_facet(zone);
+      if (result != weft::internal::Zone_result::found) continue;
       if (choosing) {
         CHECK(!chooser.encroached_facet(zone));
         CHECK(chooser.nearest_in(zone) >= 0.35 * squared(c->circumcenter(), c->vertex(0)->point()));
@@ -748,14 +749,15 @@ TEST_CASE("a refiner that doesn't look again at what another has settled does th
 {
   for (const Surface& surface : {surfaces::torus(48, 24), surfaces::l_shape(), surfaces::cylinder(40)}) {
     const Oracle oracle = oracle_of(surface);
-    const auto coarse = weft::vertices_of(weft::make_mesh_3(oracle, criteria_of(1, 0.1), refinement()).restricted);
+    const auto coarse =
+        weft::internal::vertices_of(weft::make_mesh_3(oracle, criteria_of(1, 0.1), refinement()).restricted);
     const Criteria criteria = criteria_of(0.5, 0.02);
     const auto refined = [&](bool settles) {
       weft::Restricted_delaunay_3<Oracle> mesh(oracle);
       mesh.insert(coarse.points, coarse.locations);
       const auto refine = [&](bool with_cells, int settled) {
-        weft::Batch_refiner_3<weft::Restricted_delaunay_3<Oracle>> refiner(mesh, criteria, 1, with_cells, 1e-3, 5,
-                                                                           settled);
+        weft::internal::Batch_refiner_3<weft::Restricted_delaunay_3<Oracle>> refiner(mesh, criteria, 1, with_cells,
+                                                                                     1e-3, 5, settled);
         for (int batch = 0; batch < 200 && refiner.refine(100000).inserted > 0;) ++batch;
         return refiner.settle();
       };
@@ -764,7 +766,7 @@ TEST_CASE("a refiner that doesn't look again at what another has settled does th
       refine(true, settles ? settled : 0);
       CHECK(mesh.vertices().size() > before);
       CHECK(weft::check_restricted_3(mesh).ok());
-      return weft::vertices_of(mesh).points;
+      return weft::internal::vertices_of(mesh).points;
     };
     CHECK(refined(true) == refined(false));
   }
@@ -775,21 +777,22 @@ TEST_CASE("a mesh is built again from its vertices, and what is around bad eleme
   const Oracle oracle = oracle_of(surfaces::l_shape());
   const auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05), refinement());
   const auto& mesh = result.restricted;
-  CHECK(weft::bad_balls(mesh, criteria_of(0.5, 0.05), 1e-3).empty());
-  const auto all = weft::vertices_of(mesh);
+  CHECK(weft::internal::bad_balls(mesh, criteria_of(0.5, 0.05), 1e-3).empty());
+  const auto all = weft::internal::vertices_of(mesh);
   weft::Restricted_delaunay_3<Oracle> again(oracle);
   again.insert(all.points, all.locations);
   CHECK(weft::check_restricted_3(again).ok());
   CHECK(weft::tetrahedral_mesh(again).cells.size() == weft::tetrahedral_mesh(mesh).cells.size());
 
-  auto balls = weft::bad_balls(mesh, criteria_of(0.4, 0.05), 1e-3);
+  auto balls = weft::internal::bad_balls(mesh, criteria_of(0.4, 0.05), 1e-3);
   REQUIRE(balls.size() > 5);
-  CHECK(weft::drop_vertices(balls, 1000, again) == 0);
-  CHECK(weft::vertices_of(again).points == all.points);
+  CHECK(weft::internal::drop_vertices(balls, 1000, again) == 0);
+  CHECK(weft::internal::vertices_of(again).points == all.points);
   balls.resize(5);
-  const std::size_t dropped = weft::drop_vertices(balls, 1.01, again); // the vertices of an element lie on its ball
+  const std::size_t dropped =
+      weft::internal::drop_vertices(balls, 1.01, again); // the vertices of an element lie on its ball
   CHECK(weft::check_restricted_3(again).ok());
-  const auto fewer = weft::vertices_of(again);
+  const auto fewer = weft::internal::vertices_of(again);
   CHECK(dropped > 0);
   CHECK(fewer.points.size() + dropped == all.points.size());
   const auto corners = [](const auto& vertices) {

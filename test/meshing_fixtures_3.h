@@ -9,11 +9,11 @@
 #include "surface_fixtures.h"
 
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/check_criteria_3.h>
-#include <weft/spatial/check_restricted_3.h>
-#include <weft/spatial/features_3.h>
-#include <weft/spatial/hausdorff_3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/spatial/criteria/check_criteria_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
 
@@ -33,7 +33,7 @@ using surfaces::Point;
 using surfaces::Surface;
 using Oracle = weft::Polyhedral_oracle_3<K>;
 using Criteria = weft::Criteria_3<K>;
-using Mesher = weft::Spatial_mesher_3<Oracle>;
+using Mesher = weft::internal::Spatial_mesher_3<Oracle>;
 using Mesh = weft::Tetrahedral_mesh_3<K>;
 using Options = weft::Mesh_options_3;
 

@@ -7,14 +7,14 @@
 #include "surface_fixtures.h"
 
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/check_restricted_3.h>
-#include <weft/spatial/coarsen_3.h>
-#include <weft/spatial/Deviation_3.h>
-#include <weft/spatial/Dynamic_sizing_3.h>
-#include <weft/spatial/hausdorff_3.h>
-#include <weft/spatial/quality_3.h>
-#include <weft/spatial/smooth_3.h>
-#include <weft/spatial/smoothers_3.h>
+#include <weft/spatial/criteria/Deviation_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/quality_3.h>
+#include <weft/spatial/optimise/coarsen_3.h>
+#include <weft/spatial/optimise/Dynamic_sizing_3.h>
+#include <weft/spatial/optimise/smooth_3.h>
+#include <weft/spatial/optimise/smoothers_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 
@@ -30,6 +30,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -92,8 +93,8 @@ struct Ring
     for (const auto v : triangulation.finite_vertex_handles()) v->set_id(id++);
     for (const auto c : triangulation.all_cell_handles()) c->set_subdomain(0);
     for (const auto c : triangulation.finite_cell_handles()) {
-      c->set_circumcenter(weft::circumcenter_3<K>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
-                                                  c->vertex(3)->point()));
+      c->set_circumcenter(weft::internal::circumcenter_3<K>(c->vertex(0)->point(), c->vertex(1)->point(),
+                                                            c->vertex(2)->point(), c->vertex(3)->point()));
       double z = 0;
       for (int i = 0; i < 4; ++i) z += c->vertex(i)->point().z();
       if (z / 4 < plane) c->set_subdomain(1);
@@ -259,7 +260,7 @@ TEST_CASE("dynamic sizes are K-Lipschitz along edges and the largest that are")
   const Oracle oracle = oracle_of(surfaces::torus(48, 24));
   const auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.3, 0.01), refinement());
   for (const double lipschitz : {0.1, 0.5, 2.}) {
-    weft::Dynamic_sizing_3<Restricted> sizing(lipschitz), free(1e9);
+    weft::internal::Dynamic_sizing_3<Restricted> sizing(lipschitz), free(1e9);
     sizing.update(mesh);
     free.update(mesh); // as good as ungraded
     const Mesh arrays = weft::tetrahedral_mesh(mesh);
@@ -297,7 +298,7 @@ TEST_CASE("after many vertices have moved at once, the triangulation is that of 
   for (const Case& c : cases()) {
     const Oracle oracle = oracle_of(c.surface);
     auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), refinement());
-    weft::Relocation_counts_3 all;
+    weft::internal::Relocation_counts_3 all;
     for (const double part : {1., 0.3, 0.02})
       for (const double step : {0.001, 0.01, 0.1, 0.5}) {
         std::vector<int> ids;
@@ -316,7 +317,7 @@ TEST_CASE("after many vertices have moved at once, the triangulation is that of 
           return all_locations;
         };
         const auto before = locations();
-        const weft::Relocation_counts_3 counts = mesh.relocate(ids, targets);
+        const weft::internal::Relocation_counts_3 counts = weft::internal::relocate(mesh, ids, targets);
         INFO("part " << part << ", step " << step);
         CHECK(counts.in_place + counts.one_by_one + counts.rebuilt + counts.put_back == ids.size());
         CHECK(before == locations());
@@ -351,7 +352,7 @@ TEST_CASE("vertices that may stay do so instead of being moved one by one, and t
         targets.push_back(v->point() + 0.25 * c.size * random_vector(random));
       }
       std::vector<std::size_t> stayed;
-      const weft::Relocation_counts_3 counts = mesh.relocate(ids, targets, &stayed);
+      const weft::internal::Relocation_counts_3 counts = weft::internal::relocate(mesh, ids, targets, &stayed);
       CHECK(counts.one_by_one == 0);
       CHECK(counts.put_back == stayed.size());
       CHECK(std::is_sorted(stayed.begin(), stayed.end()));
@@ -378,7 +379,7 @@ Triangulation random_triangulation(unsigned seed, int n)
 
 TEST_CASE("where flips are stuck, a few cells built anew set them free")
 {
-  weft::Relocation_counts_3 all;
+  weft::internal::Relocation_counts_3 all;
   for (unsigned seed = 0; seed < 12; ++seed) {
     Triangulation tr = random_triangulation(seed, 4000);
     const double step = 0.02 * (1 + seed % 4); // neighbours are 0.07 apart
@@ -388,8 +389,8 @@ TEST_CASE("where flips are stuck, a few cells built anew set them free")
     for (const auto v : tr.finite_vertex_handles())
       if (v->id() >= 0) vertices.push_back(v), targets.push_back(v->point() + step * random_vector(random));
     std::vector<std::size_t> deferred;
-    weft::Relocation_counts_3 counts;
-    weft::Relocator_3<Triangulation> relocator(tr);
+    weft::internal::Relocation_counts_3 counts;
+    weft::internal::Relocator_3<Triangulation> relocator(tr);
     const auto ignore = [](Cell_handle) {};
     relocator.place(vertices, targets, ignore, deferred);
     relocator.restore_delaunay(ignore, counts);
@@ -410,7 +411,7 @@ TEST_CASE("a region of a Delaunay triangulation that is built anew is as it was"
   Triangulation tr = random_triangulation(5, 300);
   const auto before = cells_of(tr);
   std::mt19937 random(6);
-  weft::Region_rebuilder_3<Triangulation> rebuilder(tr);
+  weft::internal::Region_rebuilder_3<Triangulation> rebuilder(tr);
   for (int round = 0; round < 50; ++round) {
     std::vector<Cell_handle> cells;
     for (const auto c : tr.finite_cell_handles())
@@ -455,7 +456,7 @@ TEST_CASE("a mesh sorted in memory is the same mesh")
       return std::make_tuple(vertices, cells_of(mesh.triangulation()), creases, steiner);
     };
     const auto before = picture();
-    mesh.sort_in_memory();
+    weft::internal::sort_in_memory(mesh);
     CHECK(picture() == before);
     for (std::size_t i = 0; i < mesh.vertices().size(); ++i) CHECK(mesh.vertices()[i]->id() == static_cast<int>(i));
     check_delaunay(mesh);
@@ -465,7 +466,7 @@ TEST_CASE("a mesh sorted in memory is the same mesh")
     for (const auto v : mesh.vertices())
       if (v->location().dimension == 3)
         ids.push_back(v->id()), targets.push_back(v->point() + 0.02 * c.size * random_vector(random));
-    mesh.relocate(ids, targets);
+    weft::internal::relocate(mesh, ids, targets);
     check_delaunay(mesh);
   }
 }
@@ -491,8 +492,9 @@ TEST_CASE("facets listed at vertices are those found by walking around them, unt
     const auto found = std::find_if(mesh.vertices().begin(), mesh.vertices().end(),
                                     [](auto v) { return v->location().dimension == 2; });
     REQUIRE(found != mesh.vertices().end());
-    const int id = (*found)->id();
-    mesh.leave_out(id, mesh.take_away(*found));
+    weft::internal::Vertex_transaction_3<Restricted> removal(mesh, *found);
+    removal.leave_out();
+    removal.commit();
     CHECK_FALSE(mesh.has_facets_at_vertices());
     const auto changed = stars();
     mesh.list_facets_at_vertices();
@@ -511,7 +513,7 @@ TEST_CASE("vertices that are sent to the same place don't end up in one")
       if (v->location().dimension == 3 && (all || ids.size() < 2)) ids.push_back(v->id());
     REQUIRE(ids.size() >= 2);
     const std::size_t n = mesh.vertices().size();
-    const auto counts = mesh.relocate(ids, std::vector<Point>(ids.size(), Point(0.503, 0.501, 0.497)));
+    const auto counts = weft::internal::relocate(mesh, ids, std::vector<Point>(ids.size(), Point(0.503, 0.501, 0.497)));
     CHECK(counts.put_back > 0);
     CHECK(mesh.triangulation().number_of_vertices() == n + 8);
     check_delaunay(mesh);
@@ -596,6 +598,29 @@ TEST_CASE("coarsening takes vertices away and keeps every criterion")
     for (std::size_t i = 0; i < mesh.vertices().size(); ++i) CHECK(mesh.vertices()[i]->id() == static_cast<int>(i));
     check_criteria(mesh, oracle, criteria, c.approximation);
   }
+}
+
+TEST_CASE("a coarsening that its caller ends by an exception leaves a mesh without gaps in its numbers")
+{
+  const Oracle oracle = oracle_of(surfaces::torus(48, 24));
+  const Criteria criteria = criteria_of(0.3, 0.02);
+  auto [mesh, report] = weft::make_mesh_3(oracle, criteria, refinement());
+  const std::size_t n = mesh.vertices().size();
+  weft::Coarsen_options_3 options;
+  options.go_on = [calls = 0]() mutable {
+    if (++calls == 3) throw std::runtime_error("enough");
+    return true;
+  };
+  CHECK_THROWS_AS(weft::coarsen_3(mesh, criteria, options), std::runtime_error);
+  CHECK(mesh.vertices().size() < n);
+  CHECK(mesh.triangulation().number_of_vertices() == mesh.vertices().size() + 8);
+  for (std::size_t i = 0; i < mesh.vertices().size(); ++i) {
+    REQUIRE(mesh.vertices()[i] != Restricted::Vertex_handle());
+    CHECK(mesh.vertices()[i]->id() == static_cast<int>(i));
+  }
+  const auto agreement = weft::check_restricted_3(mesh);
+  INFO(agreement);
+  CHECK(agreement.ok());
 }
 
 TEST_CASE("coarsening with an angle makes no cell below it that isn't better than those it replaces")
@@ -718,7 +743,7 @@ TEST_CASE("how far tips and ridges are from a mesh is what brute force says, on 
 {
   visit_rough_spheres(67, [](const Surface& surface, const Oracle& oracle) {
     const auto result = weft::make_mesh_3(oracle, criteria_of(0.4, 0.01), refinement());
-    const weft::Deviation_3<Restricted> deviation(result.restricted);
+    const weft::internal::Deviation_3<Restricted> deviation(result.restricted);
     double height = 0;
     for (const auto& f : result.restricted.facets())
       if (f.cell != Cell_handle()) height = (std::max)(height, std::sqrt(deviation.of(f).height));

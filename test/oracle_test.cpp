@@ -3,9 +3,9 @@
 // Properties of the domain oracle of triangle surfaces: its answers are those of brute force over all triangles in
 // exact arithmetic, and those of CGAL's AABB tree.
 
-#include <weft/internal/cgal_aabb_tree.h>
+#include <weft/internal/boxes/cgal_aabb_tree.h>
 #include <weft/internal/cgal_version.h>
-#include <weft/spatial/Polyhedral_oracle_3.h>
+#include <weft/spatial/domain/Polyhedral_oracle_3.h>
 
 #include <CGAL/Cartesian_converter.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -5,7 +5,7 @@
 #ifndef WEFT_TEST_PLANAR_GRAPHS_H
 #define WEFT_TEST_PLANAR_GRAPHS_H
 
-#include <weft/planar/Pslg_2.h>
+#include <weft/planar/graph/Pslg_2.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

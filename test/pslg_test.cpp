@@ -3,7 +3,7 @@
 // Properties of filling a triangulation with a planar straight line graph and of marking its domain: good input ends
 // up in the triangulation exactly, bad input is refused with the elements named, crossings split on request.
 
-#include <weft/planar/insert_pslg.h>
+#include <weft/planar/graph/insert_pslg.h>
 
 #include <catch2/catch.hpp>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>

@@ -7,9 +7,9 @@
 
 #include <weft/IO/read_tetrahedral_mesh.h>
 #include <weft/IO/write_mesh_3.h>
-#include <weft/spatial/from_c3t3.h>
-#include <weft/spatial/to_c3t3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/spatial/cgal/from_c3t3.h>
+#include <weft/spatial/cgal/to_c3t3.h>
+#include <weft/spatial/mesh/validate_3.h>
 
 #include <catch2/catch.hpp>
 

@@ -5,7 +5,7 @@
 
 #include "planar_fixtures.h"
 
-#include <weft/relocate/Relocator_2.h>
+#include <weft/planar/triangulation/Relocator_2.h>
 
 #include <iterator>
 
@@ -116,14 +116,14 @@ void check_same_as_from_scratch(const Cdt& cdt)
 }
 
 /// Moves and checks all that must hold for any targets.
-weft::Relocation_counts move_and_check(Cdt& cdt, const Vertices& vertices, const Points& targets)
+weft::internal::Relocation_counts move_and_check(Cdt& cdt, const Vertices& vertices, const Points& targets)
 {
   std::map<Cdt::Vertex_handle, Point> before;
   for (const auto v : cdt.finite_vertex_handles()) before[v] = v->point();
   const std::size_t number_of_constraints = constraints(cdt).size();
 
-  weft::Relocator_2<Cdt> relocator(cdt);
-  const weft::Relocation_counts counts = relocator.move(vertices, targets);
+  weft::internal::Relocator_2<Cdt> relocator(cdt);
+  const weft::internal::Relocation_counts counts = relocator.move(vertices, targets);
 
   CHECK(counts.moved + counts.put_back == vertices.size());
   CHECK(counts.one_by_one <= counts.moved);
@@ -291,7 +291,7 @@ TEST_CASE("targets at the resolution of coordinates leave no flat face")
 TEST_CASE("a single vertex moves within its star only")
 {
   Field_of_points field(3);
-  weft::Relocator_2<Cdt> relocator(field.cdt);
+  weft::internal::Relocator_2<Cdt> relocator(field.cdt);
   std::size_t flips = 0, refused = 0;
   for (int i = 0; i < 3000; ++i) {
     const auto v = field.inside[below(field.random, field.inside.size())];
@@ -310,7 +310,7 @@ TEST_CASE("relocation is the same wherever the triangulation lies in memory")
 {
   const auto run = [] {
     Field_of_points field(5, 1000);
-    weft::Relocator_2<Cdt> relocator(field.cdt);
+    weft::internal::Relocator_2<Cdt> relocator(field.cdt);
     for (int sweep = 0; sweep < 5; ++sweep) {
       Points targets;
       for (const auto v : field.inside) targets.push_back(field.nearby(v, 0.03));

@@ -5,8 +5,8 @@
 #ifndef WEFT_TEST_SPATIAL_FIXTURES_H
 #define WEFT_TEST_SPATIAL_FIXTURES_H
 
-#include <weft/spatial/Tetrahedral_mesh_3.h>
-#include <weft/spatial/Triangulation_3.h>
+#include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
+#include <weft/spatial/restricted/Mesh_triangulation_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

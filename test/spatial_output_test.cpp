@@ -6,16 +6,16 @@
 #include "spatial_fixtures.h"
 
 #include <weft/errors.h>
-#include <weft/IO/gmsh.h>
-#include <weft/IO/medit.h>
-#include <weft/IO/off.h>
-#include <weft/IO/report_json_3.h>
-#include <weft/IO/vtu.h>
+#include <weft/IO/write_gmsh_2.h>
+#include <weft/IO/write_medit_2.h>
 #include <weft/IO/write_mesh_3.h>
-#include <weft/spatial/check_criteria_3.h>
-#include <weft/spatial/hausdorff_3.h>
-#include <weft/spatial/quality_3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/IO/write_off_2.h>
+#include <weft/IO/write_report_json_3.h>
+#include <weft/IO/write_vtu_2.h>
+#include <weft/spatial/criteria/check_criteria_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/quality_3.h>
+#include <weft/spatial/mesh/validate_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -6,12 +6,12 @@
 #include "surface_fixtures.h"
 
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/check_criteria_3.h>
-#include <weft/spatial/check_restricted_3.h>
-#include <weft/spatial/features_3.h>
-#include <weft/spatial/hausdorff_3.h>
-#include <weft/spatial/perturb_slivers_3.h>
-#include <weft/spatial/validate_3.h>
+#include <weft/spatial/criteria/check_criteria_3.h>
+#include <weft/spatial/mesh/hausdorff_3.h>
+#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/optimise/perturb_slivers_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
 
@@ -19,8 +19,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <random>
 #include <set>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -33,7 +37,7 @@ using Oracle = weft::Polyhedral_oracle_3<K>;
 using Criteria = weft::Criteria_3<K>;
 using Mesh = weft::Tetrahedral_mesh_3<K>;
 using Restricted = weft::Restricted_delaunay_3<Oracle>;
-using Perturber = weft::Vertex_perturber_3<Restricted>;
+using Perturber = weft::internal::Vertex_perturber_3<Restricted>;
 
 Oracle oracle_of(const Surface& surface, double angle = 60)
 {
@@ -120,18 +124,18 @@ TEST_CASE("gradients of volume and circumradius are what differences say")
   std::mt19937 random(1);
   for (int k = 0; k < 200; ++k) {
     const auto [v, a, b, c] = random_tetrahedron(random);
-    const Vector volume = weft::gradient_of_volume(v, a, b, c);
+    const Vector volume = weft::internal::gradient_of_volume(v, a, b, c);
     const Vector expected_volume = central_difference(
         v, [&, &a = a, &b = b, &c = c](const Point& p) { return std::abs(CGAL::volume(p, a, b, c)); });
     CHECK(length(volume - expected_volume) <= 1e-6 * length(volume));
-    const Vector radius = weft::gradient_of_squared_radius(v, a, b, c, CGAL::circumcenter(v, a, b, c));
+    const Vector radius = weft::internal::gradient_of_squared_radius(v, a, b, c, CGAL::circumcenter(v, a, b, c));
     const Vector expected_radius =
         central_difference(v, [&, &a = a, &b = b, &c = c](const Point& p) { return CGAL::squared_radius(p, a, b, c); });
     CHECK(length(radius - expected_radius) <= 1e-4 * (length(radius) + 1e-3));
   }
   const Point a(0, 0, 0), b(1, 0, 0), c(0, 1, 0), flat(1, 1, 0);
-  CHECK(length(weft::gradient_of_volume(flat, a, b, c)) == 0);
-  CHECK(length(weft::gradient_of_squared_radius(flat, a, b, c, Point(0, 0, 1))) == 0);
+  CHECK(length(weft::internal::gradient_of_volume(flat, a, b, c)) == 0);
+  CHECK(length(weft::internal::gradient_of_squared_radius(flat, a, b, c, Point(0, 0, 1))) == 0);
 }
 
 TEST_CASE("extreme dihedral angles are those between the facets")
@@ -156,12 +160,12 @@ TEST_CASE("extreme dihedral angles are those between the facets")
         largest = std::min(largest, cosine);
       }
     const bool positive = CGAL::orientation(a, b, c, d) == CGAL::POSITIVE;
-    const auto found =
-        positive ? weft::cosines_of_extreme_dihedrals(a, b, c, d) : weft::cosines_of_extreme_dihedrals(b, a, c, d);
+    const auto found = positive ? weft::internal::cosines_of_extreme_dihedrals(a, b, c, d)
+                                : weft::internal::cosines_of_extreme_dihedrals(b, a, c, d);
     CHECK(found.smallest == Approx(smallest).margin(1e-9));
     CHECK(found.largest == Approx(largest).margin(1e-9));
-    const auto inverted =
-        positive ? weft::cosines_of_extreme_dihedrals(b, a, c, d) : weft::cosines_of_extreme_dihedrals(a, b, c, d);
+    const auto inverted = positive ? weft::internal::cosines_of_extreme_dihedrals(b, a, c, d)
+                                   : weft::internal::cosines_of_extreme_dihedrals(a, b, c, d);
     CHECK(inverted.smallest == 1);
     CHECK(inverted.largest == -1);
   }
@@ -174,12 +178,12 @@ TEST_CASE("circumcenters of cells don't hang on the order of the vertices")
   std::array<std::size_t, 4> order = {0, 1, 2, 3};
   for (const auto c : result.restricted.triangulation().finite_cell_handles()) {
     if (c->subdomain() == 0) continue;
-    const Point center = weft::circumcenter_of_cell_3<K>(c);
+    const Point center = weft::internal::circumcenter_of_cell_3<K>(c);
     std::array<Point, 4> p;
     for (std::size_t i = 0; i < 4; ++i) p[order[i]] = c->vertex(static_cast<int>(i))->point();
     std::next_permutation(order.begin(), order.end());
     std::sort(p.begin(), p.end());
-    CHECK(center == weft::circumcenter_3<K>(p[0], p[1], p[2], p[3]));
+    CHECK(center == weft::internal::circumcenter_3<K>(p[0], p[1], p[2], p[3]));
     CHECK(center == c->circumcenter());
   }
 }
@@ -192,8 +196,8 @@ TEST_CASE("vertices on creases may be taken away and put back or left out, and e
   REQUIRE(mesh.creases().edges().size() > 10);
   std::mt19937 random(3);
   const auto criteria = criteria_of(0.4, 0.02);
-  weft::Criteria_guard_3<Restricted> guard(mesh, criteria);
-  weft::Perturbation_judge_3<Restricted> judge(mesh, guard);
+  weft::internal::Criteria_guard_3<Restricted> guard(mesh, criteria);
+  weft::internal::Perturbation_judge_3<Restricted> judge(mesh, guard);
   for (int k = 0; k < 60; ++k) {
     const int id = static_cast<int>(random() % mesh.vertices().size());
     const auto v = mesh.vertices()[static_cast<std::size_t>(id)];
@@ -201,13 +205,15 @@ TEST_CASE("vertices on creases may be taken away and put back or left out, and e
     if (location.dimension == 0 || (k % 2 == 0 && location.dimension != 1)) continue;
     const Point origin = v->point();
     const std::size_t vertices = mesh.vertices().size();
-    const auto filling = mesh.take_away(v);
+    weft::internal::Vertex_transaction_3<Restricted> change(mesh, v);
     if (k % 3 == 0) {
-      mesh.leave_out(id, filling);
+      change.leave_out();
+      change.commit();
       CHECK(mesh.vertices().size() == vertices - 1);
     } else {
-      REQUIRE(judge.find_zone(origin, filling.front()));
-      mesh.put_back(judge.zone(), location, id, filling);
+      REQUIRE(judge.find_zone(origin, change.filling().front()));
+      change.place(judge.zone());
+      change.commit();
       CHECK(mesh.vertices()[static_cast<std::size_t>(id)]->point() == origin);
     }
     for (std::size_t i = 0; i < mesh.vertices().size(); ++i) CHECK(mesh.vertices()[i]->id() == static_cast<int>(i));
@@ -216,6 +222,143 @@ TEST_CASE("vertices on creases may be taken away and put back or left out, and e
     INFO(agreement);
     CHECK(agreement.ok());
   }
+}
+
+namespace {
+
+/// All that is kept of a mesh, by the ids of its vertices.
+template <class Mesh>
+auto picture_of(const Mesh& mesh)
+{
+  std::vector<std::pair<Point, weft::Vertex_location_3>> vertices;
+  for (const auto v : mesh.vertices()) vertices.emplace_back(v->point(), v->location());
+  std::set<std::pair<std::array<int, 4>, int>> cells;
+  for (const auto c : mesh.triangulation().finite_cell_handles()) {
+    std::array<int, 4> ids = {c->vertex(0)->id(), c->vertex(1)->id(), c->vertex(2)->id(), c->vertex(3)->id()};
+    std::sort(ids.begin(), ids.end());
+    if (!Mesh::is_at_box(c)) cells.emplace(ids, c->subdomain());
+  }
+  std::set<std::pair<std::array<int, 3>, int>> facets;
+  for (const auto& f : mesh.facets()) {
+    if (f.cell == typename Mesh::Cell_handle()) continue;
+    std::array<int, 3> ids;
+    for (std::size_t i = 0; i < 3; ++i) ids[i] = f.cell->vertex((f.index + 1 + static_cast<int>(i)) % 4)->id();
+    std::sort(ids.begin(), ids.end());
+    facets.emplace(ids, f.patch);
+  }
+  std::set<std::pair<int, int>> creases;
+  for (const auto& e : mesh.creases().edges()) creases.insert(std::minmax(e.source->id(), e.target->id()));
+  return std::make_tuple(vertices, cells, facets, creases);
+}
+
+constexpr int stages_of_change = 7;
+
+/// Takes a change of a vertex, or the insertion of one beside it, as far as a stage, and doesn't commit it.
+template <class Mesh>
+void begin_change(Mesh& mesh, int id, int stage)
+{
+  using Change = weft::internal::Vertex_transaction_3<Mesh>;
+  weft::internal::Vacant_numbers_3<Mesh> vacant(mesh);
+  const auto v = mesh.vertices()[static_cast<std::size_t>(id)];
+  const weft::Vertex_location_3 location = v->location();
+  const Point p = v->point();
+  std::vector<typename Mesh::Vertex_handle> neighbours;
+  mesh.triangulation().finite_adjacent_vertices(v, std::back_inserter(neighbours));
+  const auto w =
+      *std::find_if(neighbours.begin(), neighbours.end(), [](const auto& n) { return n->location().dimension >= 0; });
+  const auto beside = weft::internal::project_on_location(mesh.oracle(), p + 0.3 * (w->point() - p), location);
+  REQUIRE(beside);
+  typename Mesh::Zone zone;
+  const auto find = [&](typename Mesh::Cell_handle near) {
+    return weft::internal::find_conflict_zone(mesh.triangulation(), *beside, near, zone) ==
+           weft::internal::Zone_result::found;
+  };
+  if (stage > 4) {
+    if (!find(v->cell())) return;
+    if (stage == 5)
+      Change(mesh, zone, location);
+    else
+      Change(mesh, zone, location, id);
+    return;
+  }
+  Change change(mesh, v);
+  if (stage == 1) change.leave_out();
+  if (stage == 2) change.leave_out(vacant);
+  if (stage < 3 || !find(change.filling().front())) return;
+  change.place(zone);
+  if (stage == 4) change.take_out_again();
+}
+
+/// An oracle that throws once, when asked often enough.
+struct Interrupting_oracle : Oracle
+{
+  explicit Interrupting_oracle(const Oracle& oracle) : Oracle(oracle) {}
+  template <class Hits>
+  int intersect(const Point& p, const Point& q, Hits& hits) const
+  {
+    if (questions_left == 0) throw std::runtime_error("interrupted");
+    --questions_left;
+    return Oracle::intersect(p, q, hits);
+  }
+  mutable long questions_left = -1; ///< negative: it doesn't throw
+};
+
+} // namespace
+
+TEST_CASE("a change of a vertex that isn't committed is rolled back, wherever it ends")
+{
+  for (const Surface& surface : {surfaces::cylinder(40), surfaces::cube()}) {
+    const Oracle oracle = oracle_of(surface);
+    auto [mesh, report] = weft::make_mesh_3(oracle, criteria_of(0.4, 0.02));
+    const auto before = picture_of(mesh);
+    std::mt19937 random(5);
+    for (int k = 0; k < 8 * stages_of_change; ++k) {
+      const auto v = mesh.vertices()[random() % mesh.vertices().size()];
+      if (mesh.is_fixed(v)) continue;
+      begin_change(mesh, v->id(), k % stages_of_change);
+      INFO("stage " << k % stages_of_change);
+      REQUIRE(picture_of(mesh) == before);
+      const auto agreement = weft::check_restricted_3(mesh);
+      INFO(agreement);
+      CHECK(agreement.ok());
+    }
+  }
+}
+
+TEST_CASE("a change of a vertex is rolled back when the oracle throws")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(40));
+  auto [finished, report] = weft::make_mesh_3(oracle, criteria_of(0.4, 0.02));
+  const Interrupting_oracle interrupting(oracle);
+  weft::Restricted_delaunay_3<Interrupting_oracle> mesh(interrupting);
+  std::vector<Point> points;
+  std::vector<weft::Vertex_location_3> locations;
+  for (const auto v : finished.vertices()) {
+    points.push_back(v->point());
+    locations.push_back(v->location());
+  }
+  mesh.insert(points, locations);
+  const auto before = picture_of(mesh);
+  std::mt19937 random(6);
+  int interruptions = 0;
+  for (int k = 0; k < 12 * stages_of_change; ++k) {
+    const auto v = mesh.vertices()[random() % mesh.vertices().size()];
+    if (mesh.is_fixed(v)) continue;
+    const int stage = k % stages_of_change, id = v->id();
+    interrupting.questions_left = k / stages_of_change;
+    try {
+      begin_change(mesh, id, stage);
+    } catch (const std::runtime_error&) {
+      ++interruptions;
+    }
+    interrupting.questions_left = -1;
+    INFO("stage " << stage << " of vertex " << id);
+    REQUIRE(picture_of(mesh) == before);
+    const auto agreement = weft::check_restricted_3(mesh);
+    INFO(agreement);
+    CHECK(agreement.ok());
+  }
+  CHECK(interruptions > 6 * stages_of_change);
 }
 
 TEST_CASE("moves, insertions and removals can be undone to the last cell")
@@ -230,7 +373,7 @@ TEST_CASE("moves, insertions and removals can be undone to the last cell")
     for (const auto v : mesh.vertices()) points.push_back(v->point());
     weft::Perturb_options_3 options;
     weft::Perturb_report_3 report;
-    weft::Criteria_guard_3<Restricted> guard(mesh, criteria);
+    weft::internal::Criteria_guard_3<Restricted> guard(mesh, criteria);
     Perturber perturber(mesh, guard, options, report);
     perturber.set_bound(std::cos(0.1));
     perturber.set_kick_bound(std::cos(0.01));
@@ -276,7 +419,7 @@ TEST_CASE("vertices are also inserted on patches that have none yet, but facets 
   REQUIRE(bare.size() == 4);
   weft::Perturb_options_3 options;
   weft::Perturb_report_3 report;
-  weft::Criteria_guard_3<Restricted> guard(mesh, criteria);
+  weft::internal::Criteria_guard_3<Restricted> guard(mesh, criteria);
   Perturber perturber(mesh, guard, options, report);
   std::size_t reached = 0;
   for (const int patch : bare) {

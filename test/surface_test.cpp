@@ -7,8 +7,8 @@
 #include "surface_fixtures.h"
 
 #include <weft/IO/read_surface.h>
-#include <weft/spatial/features_3.h>
-#include <weft/spatial/repair_surface_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
+#include <weft/spatial/surface/repair_surface_3.h>
 
 #include <catch2/catch.hpp>
 #include <CGAL/Polyhedron_3.h>

@@ -3,7 +3,7 @@
 // Properties of the validity checker: good meshes pass whoever made them, however they are rotated and scaled, and each
 // way of breaking a mesh is found and named by the check that is meant for it.
 
-#include <weft/planar/validate_2.h>
+#include <weft/planar/check/validate_2.h>
 #include <weft/sizing/Uniform_sizing.h>
 
 #include <catch2/catch.hpp>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The concept of a spatial domain, as a class with just what it asks for. Part of the manual, not of the library; the
-// test archetypes_test makes meshes with it, so that nothing the mesher calls can be missing here.
+// The concept of a spatial domain, as a class with just the members it requires. Part of the manual, not of the
+// library. The test archetypes_test makes meshes with it, so nothing that the mesher calls can be missing here.
 
 #ifndef WEFT_DOC_DOMAIN_ORACLE_3_H
 #define WEFT_DOC_DOMAIN_ORACLE_3_H
 
-#include <weft/spatial/Feature_incidence_3.h>
-#include <weft/spatial/oracle_hits_3.h>
+#include <weft/spatial/domain/oracle_hits_3.h>
+#include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -15,14 +15,14 @@
 #include <vector>
 
 /// \defgroup concept_classes Concepts
-/// What weft asks of types that you can replace; see \ref concepts "their page".
+/// Members that types of your own need to take the place of weft's; see \ref concepts "their page".
 
-/// The concepts as classes, which tests mesh with. Not part of the library.
+/// The concepts as classes, with which tests make meshes. Not part of the library.
 namespace concepts {
 
-/// What a spatial mesher asks about a domain. All functions are const and give the same answer each time. A domain that
-/// knows nothing of folds inherits weft::No_folds_3; one that knows the subdomain of every point inherits
-/// weft::Domain_by_labels_3, which does nearly everything.
+/// The questions of a spatial mesher about a domain. All functions are const and give the same answer each time. A
+/// domain without folds inherits weft::No_folds_3. One that knows the subdomain of every point inherits
+/// weft::Domain_by_labels_3, which has nearly all members.
 ///
 /// examples/custom_oracle.h is an oracle with all of it.
 ///
@@ -75,10 +75,10 @@ public:
   /// Nearest point of the boundary; patch -1 if none was found.
   Surface_hit closest(const Point& p) const { return model_.closest(p); }
 
-  /// Whether the boundary comes as near to p as that.
+  /// Whether the boundary has a point within that squared distance from p.
   bool is_within(const Point& p, double squared_distance) const { return model_.is_within(p, squared_distance); }
 
-  /// Whether the boundary surely keeps that distance from p.
+  /// Whether the boundary keeps that distance from p; false if that isn't known.
   bool is_clear(const Point& p, double radius) const { return model_.is_clear(p, radius); }
   /// @}
 
@@ -88,7 +88,7 @@ public:
 
   int number_of_patches() const { return model_.number_of_patches(); }
 
-  /// Whether a mesh that lacks the patch lacks something.
+  /// Whether a mesh has to have a facet on the patch.
   bool is_expected(int patch) const { return model_.is_expected(patch); }
 
   /// Nearest point of a patch; patch -1 if none was found.
@@ -124,7 +124,8 @@ public:
   /// Where the boundary bends without a crease. weft::No_folds_3 has these for domains without.
   /// @{
 
-  /// Moves a point of a patch to where the boundary bends most within reach; whether there is such a place.
+  /// Moves a point of a patch to the place within reach where the boundary bends most.
+  /// \returns whether there is such a place.
   bool attract(Point& p, double vertex_reach, double fold_reach, int patch) const
   {
     return model_.attract(p, vertex_reach, fold_reach, patch);
@@ -145,7 +146,7 @@ public:
     model_.visit_ridges(center, squared_radius, patch, visit);
   }
 
-  /// Whether a ball mixes up the two sides of an edge of the boundary with an acute dihedral angle.
+  /// Whether a ball reaches both sides of an edge of the boundary with an acute dihedral angle.
   bool is_at_acute_edge(const Point& center, double radius) const { return model_.is_at_acute_edge(center, radius); }
 
   /// The mirror image of p on the other side of such an edge; whether there is one.
@@ -154,7 +155,8 @@ public:
     return model_.mirror_at_acute_edge(p, center, radius, image);
   }
 
-  /// Moves the center of a ball to the nearest point of such an edge; whether that is near.
+  /// Moves the center of a ball to the nearest point of such an edge if that is near.
+  /// \returns whether it is.
   bool attract_to_acute_edge(Point& p, double radius) const { return model_.attract_to_acute_edge(p, radius); }
   /// @}
 

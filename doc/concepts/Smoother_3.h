@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The concept of what weft::smooth_3() is guided by, as a class with just what is asked for. Part of the manual, not of
-// the library; archetypes_test smooths with it.
+// The concept of smoothers, for weft::smooth_3(), as a class with just the members it requires. Part of the manual, not
+// of the library; archetypes_test smooths with it.
 
 #ifndef WEFT_DOC_SMOOTHER_3_H
 #define WEFT_DOC_SMOOTHER_3_H
@@ -11,8 +11,8 @@
 
 namespace concepts {
 
-/// Where a vertex wants to be, given the cells around it. The driver projects that onto the vertex's patch or crease,
-/// shortens the move, and takes it back where a criterion would be violated.
+/// The position that a vertex should have, given the cells around it. weft::smooth_3() projects it onto the vertex's
+/// patch or crease, shortens the move, and undoes it where a criterion would be violated.
 ///
 /// Models: weft::Natural_odt_3, weft::Odt_3, weft::Lloyd_3.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.

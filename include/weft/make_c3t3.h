@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE coming from CGAL's Mesh_3. `weft::make_mesh_3<C3t3>(domain, criteria)` takes what CGAL's function of that
-// name takes, any MeshDomain_3 and MeshCriteria_3, and returns what it returns:
+// START HERE coming from CGAL's Mesh_3: `weft::make_mesh_3<C3t3>(domain, criteria)` has the arguments and the result of
+// CGAL's function of that name. The domain may be any MeshDomain_3, the criteria any MeshCriteria_3.
 //
 //   #include <CGAL/Labeled_mesh_domain_3.h>
 //   #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
@@ -21,9 +21,9 @@
 
 #include <weft/internal/answers.h>
 #include <weft/make_mesh_3.h>
-#include <weft/spatial/cgal_criteria_3.h>
-#include <weft/spatial/Mesh_domain_oracle_3.h>
-#include <weft/spatial/to_c3t3.h>
+#include <weft/spatial/cgal/cgal_criteria_3.h>
+#include <weft/spatial/cgal/Mesh_domain_oracle_3.h>
+#include <weft/spatial/cgal/to_c3t3.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -97,7 +97,7 @@ C3t3 make_mesh_3(const Domain& domain, const Criteria& criteria,
     // In diagonals. Creases may part at small angles; what else is as small are steps of images, at which the search
     // for a manifold boundary doesn't end by itself.
     const double smallest_detail = oracle.number_of_creases() > 0 ? 1e-4 : 1e-3;
-    const auto own_criteria = cgal_criteria_3<C3t3>(criteria, oracle);
+    const auto own_criteria = internal::cgal_criteria_3<C3t3>(criteria, oracle);
     Mesh_options_3 own_options = options;
     const auto b = oracle.bbox();
     if (options.size_floor == 0)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE in 2D. `make_mesh_2()` turns a constrained Delaunay triangulation into a mesh of large, well-shaped
+// START HERE in 2D: `make_mesh_2()` turns a constrained Delaunay triangulation into a mesh of large, well-shaped
 // triangles whose edges respect a sizing field, by interleaving refinement with relaxation (Tournois 2009, chapter 2,
-// Alg. 2). `relax_2()` improves a mesh that somebody else made without inserting anything.
+// Alg. 2). `relax_2()` moves the vertices of a mesh of any origin to better places and inserts none.
 //
 //   const K::Point_2 a(0, 0), b(1, 0), c(0, 1);
 //   weft::Mesh_triangulation_2<K> cdt; // or weft::insert_pslg()
@@ -15,9 +15,9 @@
 #define WEFT_MAKE_MESH_2_H
 
 #include <weft/options.h>
-#include <weft/planar/Planar_mesher_2.h>
-#include <weft/planar/require_planar_2.h>
-#include <weft/planar/Triangulation_2.h>
+#include <weft/planar/run/Planar_mesher_2.h>
+#include <weft/planar/run/require_planar_2.h>
+#include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/report.h>
 #include <weft/sizing/Uniform_sizing.h>
 
@@ -46,7 +46,7 @@ Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& 
     return make_mesh_2(cdt, Uniform_sizing<>(sizing), options);
   } else if constexpr (internal::Planar_requirements_2<Cdt, Sizing>::holds) {
     options.check();
-    return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
+    return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
   } else {
     internal::Planar_requirements_2<Cdt, Sizing>::complain();
     return {};
@@ -64,7 +64,7 @@ Mesh_report_2 relax_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& opti
     return relax_2(cdt, Uniform_sizing<>(sizing), options);
   } else if constexpr (internal::Planar_requirements_2<Cdt, Sizing>::holds) {
     options.check();
-    return Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
+    return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
   } else {
     internal::Planar_requirements_2<Cdt, Sizing>::complain();
     return {};

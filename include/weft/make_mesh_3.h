@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE in 3D. `make_mesh_3()` fills the domain behind an oracle with tetrahedra that satisfy size, approximation,
+// START HERE in 3D: `make_mesh_3()` fills the domain behind an oracle with tetrahedra that satisfy size, approximation,
 // shape and topology criteria, by batches of Delaunay refinement (Tournois 2009, sec. 3.2).
 //
 //   #include <weft/IO/read_surface.h>
@@ -16,12 +16,12 @@
 
 #include <weft/options.h>
 #include <weft/report.h>
-#include <weft/spatial/Criteria_3.h>
-#include <weft/spatial/extract_mesh_3.h>
-#include <weft/spatial/Polyhedral_oracle_3.h>
-#include <weft/spatial/require_oracle_3.h>
-#include <weft/spatial/Restricted_delaunay_3.h>
-#include <weft/spatial/Spatial_mesher_3.h>
+#include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/domain/Polyhedral_oracle_3.h>
+#include <weft/spatial/restricted/extract_mesh_3.h>
+#include <weft/spatial/restricted/Restricted_delaunay_3.h>
+#include <weft/spatial/run/require_oracle_3.h>
+#include <weft/spatial/run/Spatial_mesher_3.h>
 
 #include <cstdlib>
 #include <type_traits>
@@ -54,7 +54,7 @@ Make_mesh_result_3<Oracle> make_mesh_3(const Oracle& oracle, const Criteria_3<ty
   if constexpr (internal::Oracle_requirements_3<Oracle>::holds) {
     criteria.check();
     options.check();
-    Spatial_mesher_3<Oracle> mesher(oracle, criteria, options);
+    internal::Spatial_mesher_3<Oracle> mesher(oracle, criteria, options);
     Mesh_report_3 report = mesher.run();
     return {mesher.take_mesh(), std::move(report)};
   } else {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE in 3D with a surface whose sharp edges nobody has listed. `mesh_surface_3()` is `make_mesh_3()` for the
-// domain that a surface bounds, but doesn't insist on creases that were found by angle: scanned surfaces have folds
-// that look sharp here and there, and that no mesh of the asked size and shape can follow.
+// START HERE in 3D with a surface whose sharp edges aren't listed: `mesh_surface_3()` is `make_mesh_3()` for the domain
+// inside a surface, and gives up creases found by angle that keep the criteria from holding. Scanned surfaces have
+// folds that look sharp, but that no mesh of the asked size and shape can follow.
 //
 //   #include <weft/IO/read_surface.h>
 //   #include <weft/IO/write_mesh_3.h>
@@ -19,15 +19,15 @@
 #include <weft/internal/timer.h>
 #include <weft/options.h>
 #include <weft/report.h>
-#include <weft/spatial/Criteria_3.h>
-#include <weft/spatial/extract_mesh_3.h>
-#include <weft/spatial/features_3.h>
-#include <weft/spatial/give_up_creases_3.h>
-#include <weft/spatial/Piecewise_smooth_complex_3.h>
-#include <weft/spatial/Polyhedral_oracle_3.h>
-#include <weft/spatial/require_oracle_3.h>
-#include <weft/spatial/Restricted_delaunay_3.h>
-#include <weft/spatial/Spatial_mesher_3.h>
+#include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/domain/Polyhedral_oracle_3.h>
+#include <weft/spatial/restricted/extract_mesh_3.h>
+#include <weft/spatial/restricted/Restricted_delaunay_3.h>
+#include <weft/spatial/run/give_up_creases_3.h>
+#include <weft/spatial/run/require_oracle_3.h>
+#include <weft/spatial/run/Spatial_mesher_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
+#include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -129,7 +129,7 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
     first->optimise();
     return result(*first, 0);
   }
-  auto which = creases_beside_bad_elements(first->mesher.mesh(), criteria, complex);
+  auto which = internal::creases_beside_bad_elements(first->mesher.mesh(), criteria, complex);
   // Optimisation may mend a facet or cell, so that creases can stay. A crease edge it doesn't: that is known sooner.
   const bool is_hopeless = first->report.bad_edges.elements > 0;
   if (!is_hopeless) first->optimise();
@@ -141,13 +141,13 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
   constexpr std::size_t much_less = 4;
   for (int round = 1; round <= rounds; ++round) {
     const std::vector<char> all(which.size(), true);
-    std::size_t dropped = drop_creases(round == rounds ? all : which, complex);
-    if (dropped == 0) dropped = drop_creases(all, complex); // none of those left is at fault on its own
+    std::size_t dropped = internal::drop_creases(round == rounds ? all : which, complex);
+    if (dropped == 0) dropped = internal::drop_creases(all, complex); // none of those left is at fault on its own
     if (dropped == 0) break;
     given_up += dropped;
     auto trial = std::make_unique<Attempt>(complex, criteria, options, time_left());
     if (!trial->has_ended()) break; // out of time, or cancelled
-    which = creases_beside_bad_elements(trial->mesher.mesh(), criteria, complex);
+    which = internal::creases_beside_bad_elements(trial->mesher.mesh(), criteria, complex);
     const bool is_good = trial->report.ok();
     if (is_good || much_less * trial->report.bad() < (best ? best : first)->report.bad()) {
       best = std::move(trial);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Options of the meshers. The defaults are meant to be left alone; each option says its unit and what it does.
+// Options of the meshers. Each says its unit and what it does; the defaults suit most inputs.
 
 #ifndef WEFT_OPTIONS_H
 #define WEFT_OPTIONS_H
@@ -83,8 +83,7 @@ struct Mesh_options_2
 struct Mesh_options_3
 {
   bool coarsen = true; ///< take away vertices that no criterion needs
-  /// Sweeps of Natural ODT smoothing, which keeps all criteria; 0: none. With 2 / 4 / 6 the elephant ends with 3268 /
-  /// 3279 / 3279 vertices in 3.1 / 3.8 / 3.8 s, the dinosaur with 3849 / 3866 / 3874 in 4.0 / 4.6 / 5.1 s.
+  /// Sweeps of Natural ODT smoothing, which keeps all criteria; 0: none.
   int smoothing_sweeps = 3;
   /// Smallest dihedral angle in degrees to perturb slivers for; 0: no perturbation; 90: as far as it goes, which takes
   /// minutes without a `time_limit`, and which that limit may end without the run counting as stopped early.
@@ -92,7 +91,7 @@ struct Mesh_options_3
   double size_floor = 0; ///< no Steiner point closer to a vertex, in the input's units; 0: chosen from the criteria
   bool lattice = true;   ///< fill thick parts with a body-centred cubic lattice where the size is constant
   bool give_up_creases = true; ///< of those found by angle, where criteria can't hold with them; for `mesh_surface_3()`
-  double initial_relaxation = 2.6;     ///< factor by which criteria are loosened for the first mesh
+  double initial_loosening = 2.6;      ///< factor by which criteria are loosened for the first mesh
   std::size_t max_batches = 2000;      ///< most batches of refinement
   std::size_t max_vertices = 20000000; ///< vertex budget
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
@@ -119,7 +118,7 @@ struct Mesh_options_3
     require(smoothing_sweeps >= 0, "smoothing_sweeps must not be negative");
     require(min_dihedral_angle >= 0 && min_dihedral_angle <= 90, "min_dihedral_angle must lie in [0, 90] degrees");
     require(size_floor >= 0, "size_floor must not be negative");
-    require(initial_relaxation >= 1, "initial_relaxation must be at least 1");
+    require(initial_loosening >= 1, "initial_loosening must be at least 1");
     require(time_limit >= 0, "time_limit must not be negative");
     require(threads > 0, "threads must be positive");
   }

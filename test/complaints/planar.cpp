@@ -53,8 +53,8 @@ void mistake()
   weft::relax_2(cdt, [](const K::Point_2& p) { return p; });
 #endif
 
-#if CASE == 9 // weft: optimise_2() takes a weft::Triangle_mesh_2<K>
+#if CASE == 9 // weft: improve_2() takes a weft::Triangle_mesh_2<K>
   Cdt cdt;
-  const auto [mesh, report] = weft::optimise_2(cdt);
+  const auto [mesh, report] = weft::improve_2(cdt);
 #endif
 }

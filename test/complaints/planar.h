@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What planar.cpp includes, parsed once.
 
+#include <weft/improve_2.h>
 #include <weft/make_mesh_2.h>
-#include <weft/optimise_2.h>
 
 #include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Delaunay_triangulation_2.h>

@@ -103,14 +103,14 @@ void mistake(const Soup& soup, const weft::Criteria_3<K>& criteria)
   const auto result = weft::mesh_surface_3(weft::piecewise_smooth_complex(soup), 0.1);
 #endif
 
-#if CASE == 13 // weft: optimise_3() takes a weft::Tetrahedral_mesh_3<K>
+#if CASE == 13 // weft: improve_3() takes a weft::Tetrahedral_mesh_3<K>
   const C3t3 c3t3;
-  const auto [mesh, report] = weft::optimise_3(c3t3);
+  const auto [mesh, report] = weft::improve_3(c3t3);
 #endif
 
 #if CASE == 14 // weft: this is no domain oracle
   const weft::Tetrahedral_mesh_3<K> given;
-  const auto [mesh, report] = weft::optimise_3(given, weft::piecewise_smooth_complex(soup), {});
+  const auto [mesh, report] = weft::improve_3(given, weft::piecewise_smooth_complex(soup), {});
 #endif
 
 #if CASE == 15 // weft: make_mesh_3<C3t3>() takes a model of CGAL's MeshDomain_3

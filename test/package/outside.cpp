@@ -3,7 +3,7 @@
 // What a project that uses weft might begin with: a constrained Delaunay triangulation of a square with a diagonal.
 
 #include <weft/errors.h>
-#include <weft/planar/Triangulation_2.h>
+#include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/version.h>
 
 #include <cstdlib>

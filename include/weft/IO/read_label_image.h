@@ -11,7 +11,7 @@
 #include <weft/IO/internal/extension.h>
 #include <weft/IO/internal/label_values.h>
 #include <weft/IO/internal/nifti_image.h>
-#include <weft/spatial/Label_image_3.h>
+#include <weft/spatial/domain/Label_image_3.h>
 
 #include <CGAL/Image_3.h>
 

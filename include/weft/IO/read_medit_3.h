@@ -9,7 +9,7 @@
 
 #include <weft/IO/internal/Line_reader.h>
 #include <weft/IO/internal/read_elements.h>
-#include <weft/spatial/Element_soup_3.h>
+#include <weft/spatial/mesh/Element_soup_3.h>
 
 #include <algorithm>
 #include <array>

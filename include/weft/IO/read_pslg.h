@@ -5,10 +5,10 @@
 #ifndef WEFT_IO_READ_PSLG_H
 #define WEFT_IO_READ_PSLG_H
 
-#include <weft/IO/edg.h>
 #include <weft/IO/internal/extension.h>
-#include <weft/IO/obj.h>
-#include <weft/IO/poly.h>
+#include <weft/IO/read_edg.h>
+#include <weft/IO/read_obj_graph.h>
+#include <weft/IO/read_poly.h>
 
 #include <string>
 
@@ -25,7 +25,7 @@ Pslg_2<K> read_pslg(const std::string& filename)
   if (extension == "poly") return read_poly<K>(filename);
   if (extension == "node") return read_node<K>(filename);
   if (extension == "edg") return read_edg<K>(filename);
-  if (extension == "obj") return read_obj<K>(filename);
+  if (extension == "obj") return read_obj_graph<K>(filename);
   throw File_error(filename, 0, "unknown extension; known are .poly, .node, .edg and .obj");
 }
 

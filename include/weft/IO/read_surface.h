@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Reads a surface from a file; the extension says in which format.
+//
+// Readers of weft's own, not `CGAL::IO::read_polygon_soup()`: that one (5.5) takes an .obj file that ends in the middle
+// of a facet and facets of points that don't exist, refuses .off files without a header line, and can't say which line
+// is wrong or why.
 
 #ifndef WEFT_IO_READ_SURFACE_H
 #define WEFT_IO_READ_SURFACE_H
@@ -9,7 +13,7 @@
 #include <weft/IO/internal/surface_ply.h>
 #include <weft/IO/internal/surface_stl.h>
 #include <weft/IO/internal/surface_text_formats.h>
-#include <weft/spatial/Polygon_soup_3.h>
+#include <weft/spatial/surface/Polygon_soup_3.h>
 
 #include <CGAL/number_utils.h>
 

@@ -11,7 +11,7 @@
 #include <weft/IO/read_medit_3.h>
 #include <weft/IO/read_tetgen.h>
 #include <weft/IO/read_vtu_3.h>
-#include <weft/spatial/Element_soup_3.h>
+#include <weft/spatial/mesh/Element_soup_3.h>
 
 #include <string>
 

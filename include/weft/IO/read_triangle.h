@@ -9,9 +9,9 @@
 
 #include <weft/IO/internal/Line_reader.h>
 #include <weft/IO/internal/read_planar_elements.h>
-#include <weft/IO/poly.h>
+#include <weft/IO/read_poly.h>
 #include <weft/IO/read_tetgen.h>
-#include <weft/planar/Element_soup_2.h>
+#include <weft/planar/mesh/Element_soup_2.h>
 
 #include <array>
 #include <cstddef>

@@ -13,7 +13,7 @@
 #include <weft/IO/read_medit_3.h>
 #include <weft/IO/read_triangle.h>
 #include <weft/IO/read_vtu_3.h>
-#include <weft/planar/Element_soup_2.h>
+#include <weft/planar/mesh/Element_soup_2.h>
 
 #include <array>
 #include <cstddef>

@@ -10,7 +10,7 @@
 #include <weft/errors.h>
 #include <weft/IO/internal/read_elements.h>
 #include <weft/IO/internal/Vtu_arrays.h>
-#include <weft/spatial/Element_soup_3.h>
+#include <weft/spatial/mesh/Element_soup_3.h>
 
 #include <algorithm>
 #include <array>

@@ -5,12 +5,12 @@
 #ifndef WEFT_IO_WRITE_MESH_2_H
 #define WEFT_IO_WRITE_MESH_2_H
 
-#include <weft/IO/gmsh.h>
 #include <weft/IO/internal/extension.h>
-#include <weft/IO/medit.h>
-#include <weft/IO/off.h>
-#include <weft/IO/svg.h>
-#include <weft/IO/vtu.h>
+#include <weft/IO/write_gmsh_2.h>
+#include <weft/IO/write_medit_2.h>
+#include <weft/IO/write_off_2.h>
+#include <weft/IO/write_svg_2.h>
+#include <weft/IO/write_vtu_2.h>
 
 #include <string>
 

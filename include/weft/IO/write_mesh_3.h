@@ -6,12 +6,12 @@
 #define WEFT_IO_WRITE_MESH_3_H
 
 #include <weft/errors.h>
-#include <weft/IO/gmsh_3.h>
 #include <weft/IO/internal/extension.h>
-#include <weft/IO/medit_3.h>
-#include <weft/IO/off_3.h>
-#include <weft/IO/stl.h>
-#include <weft/IO/vtu_3.h>
+#include <weft/IO/write_gmsh_3.h>
+#include <weft/IO/write_medit_3.h>
+#include <weft/IO/write_off_3.h>
+#include <weft/IO/write_stl_3.h>
+#include <weft/IO/write_vtu_3.h>
 
 #include <string>
 

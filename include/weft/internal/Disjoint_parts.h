@@ -10,8 +10,7 @@
 #include <map>
 #include <vector>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Sets that are united.
 class Disjoint_parts
@@ -46,7 +45,6 @@ inline int number_parts(Disjoint_parts& parts, std::size_t n, std::vector<int>& 
   return static_cast<int>(number_of_part.size());
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_INTERNAL_DISJOINT_PARTS_H

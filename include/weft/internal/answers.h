@@ -8,8 +8,7 @@
 
 #include <type_traits>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 template <class Result, template <class> class Expression, class T, class = void>
 struct Answers : std::false_type
@@ -27,7 +26,6 @@ inline constexpr bool answers_v = Answers<Result, Expression, T>::value;
 template <class...>
 inline constexpr bool never_v = false;
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_INTERNAL_ANSWERS_H

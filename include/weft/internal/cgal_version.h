@@ -19,8 +19,7 @@
 #include <boost/variant/get.hpp>
 #endif
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// The alternative `T` of what `CGAL::intersection()` returned, or null when the intersection is empty or something
 /// else. The result is an optional variant of boost up to CGAL 5.6, of the standard library from 6.0 on.
@@ -35,7 +34,6 @@ const T* intersection_as(const Result& result)
 #endif
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_INTERNAL_CGAL_VERSION_H

@@ -8,8 +8,7 @@
 #include <cstddef>
 #include <string>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// "1 triangle", "2 triangles".
 inline std::string counted(std::size_t n, const std::string& one, const std::string& many)
@@ -17,7 +16,6 @@ inline std::string counted(std::size_t n, const std::string& one, const std::str
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_INTERNAL_COUNTED_H

@@ -14,8 +14,7 @@
 #include <tbb/task_arena.h>
 #endif
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Calls `body(i)` for i in [0, n), on at most `threads` threads.
 /// \param grain the fewest of them that a thread takes at once.
@@ -39,7 +38,6 @@ void parallel_for(std::size_t n, int threads, const Body& body, std::size_t grai
   for (std::size_t i = 0; i < n; ++i) body(i);
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_INTERNAL_PARALLEL_FOR_H

@@ -7,8 +7,7 @@
 
 #include <chrono>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Seconds since construction.
 class Timer
@@ -38,7 +37,6 @@ private:
   double last_ = 0;
 };
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_INTERNAL_TIMER_H

@@ -10,7 +10,7 @@
 #define WEFT_SIZING_LIPSCHITZ_SIZING_2_H
 
 #include <weft/errors.h>
-#include <weft/sizing/Box_tree_2.h>
+#include <weft/internal/boxes/Box_tree_2.h>
 
 #include <CGAL/number_utils.h>
 

@@ -6,15 +6,14 @@
 #ifndef WEFT_IO_INTERNAL_BOUNDARY_3_H
 #define WEFT_IO_INTERNAL_BOUNDARY_3_H
 
-#include <weft/internal/coordinates_3.h>
-#include <weft/spatial/Tetrahedral_mesh_3.h>
+#include <weft/internal/boxes/coordinates_3.h>
+#include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 struct Boundary_3
 {
@@ -39,7 +38,6 @@ Boundary_3 boundary_of(const Tetrahedral_mesh_3<K>& mesh)
   return boundary;
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_BOUNDARY_3_H

@@ -6,10 +6,11 @@
 #ifndef WEFT_IO_INTERNAL_INDEXED_MESH_2_H
 #define WEFT_IO_INTERNAL_INDEXED_MESH_2_H
 
-#include <weft/planar/Constraint_markers.h>
-#include <weft/planar/mark_domain.h>
-#include <weft/planar/Triangle_mesh_2.h>
-#include <weft/planar/Triangulation_2.h>
+#include <weft/planar/graph/Constraint_markers.h>
+#include <weft/planar/graph/mark_domain.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
+#include <weft/planar/mesh/Triangle_mesh_2.h>
+#include <weft/planar/triangulation/Mesh_triangulation_2.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/Unique_hash_map.h>
@@ -21,8 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 template <class Vertex, class = void>
 struct Knows_constraint : std::false_type
@@ -149,7 +149,6 @@ Indexed_mesh_2 indexed_mesh(const Triangle_mesh_2<K>& mesh, const Mesh_tags_2<K>
   return result;
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_INDEXED_MESH_2_H

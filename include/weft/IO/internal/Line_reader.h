@@ -18,8 +18,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Walks through the lines of a text file; `#` starts a comment.
 class Line_reader
@@ -171,7 +170,6 @@ private:
   std::size_t line_ = 0;
 };
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_LINE_READER_H

@@ -15,8 +15,7 @@
 #include <limits>
 #include <string>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Colour for a value in [0, 1]: dark red, orange, pale yellow, light blue, blue.
 inline std::string colour(double value)
@@ -187,7 +186,6 @@ private:
   Text_writer out_;
 };
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_SVG_CANVAS_H

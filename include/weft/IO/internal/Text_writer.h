@@ -15,8 +15,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Writes text to a file; `close()` tells whether all of it arrived.
 class Text_writer
@@ -75,7 +74,6 @@ private:
   std::string buffer_;
 };
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_TEXT_WRITER_H

@@ -23,8 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Reads a file and gives out its arrays by section ("Points", "Cells", "PointData", "CellData") and name.
 class Vtu_arrays
@@ -279,7 +278,6 @@ private:
   std::map<std::pair<std::string, std::string>, Array> arrays_; ///< by section and name
 };
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_VTU_ARRAYS_H

@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Extension in lower case without its dot; empty if there is none.
 inline std::string extension(const std::string& filename)
@@ -21,7 +20,6 @@ inline std::string extension(const std::string& filename)
   return result;
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_EXTENSION_H

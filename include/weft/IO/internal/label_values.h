@@ -10,8 +10,7 @@
 #include <cmath>
 #include <string>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// A voxel's value as a label. \throws File_error unless it is an integer that fits.
 inline int label_value(const std::string& filename, double value)
@@ -21,7 +20,6 @@ inline int label_value(const std::string& filename, double value)
   return static_cast<int>(value);
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_LABEL_VALUES_H

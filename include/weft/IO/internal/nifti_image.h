@@ -8,7 +8,7 @@
 
 #include <weft/errors.h>
 #include <weft/IO/internal/label_values.h>
-#include <weft/spatial/Label_image_3.h>
+#include <weft/spatial/domain/Label_image_3.h>
 
 #ifdef WEFT_LINKED_WITH_NIFTI
 #include <nifti1_io.h>
@@ -25,8 +25,7 @@
 #include <string>
 #include <vector>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 #ifdef WEFT_LINKED_WITH_NIFTI
 
@@ -171,7 +170,6 @@ inline Label_image_3 read_nifti(const std::string& filename)
 
 #endif
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_NIFTI_IMAGE_H

@@ -8,16 +8,15 @@
 
 #include <weft/errors.h>
 #include <weft/IO/internal/Line_reader.h>
-#include <weft/spatial/assemble_mesh_3.h>
-#include <weft/spatial/Element_soup_3.h>
+#include <weft/spatial/mesh/assemble_mesh_3.h>
+#include <weft/spatial/mesh/Element_soup_3.h>
 
 #include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Three coordinates, wherever lines end.
 template <class Point>
@@ -61,7 +60,6 @@ Imported_mesh_3<K> assemble_from_file(const std::string& filename, Element_soup_
   }
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_READ_ELEMENTS_H

@@ -7,9 +7,9 @@
 #define WEFT_IO_INTERNAL_READ_PLANAR_ELEMENTS_H
 
 #include <weft/errors.h>
-#include <weft/planar/assemble_mesh_2.h>
-#include <weft/planar/Element_soup_2.h>
-#include <weft/spatial/Element_soup_3.h>
+#include <weft/planar/mesh/assemble_mesh_2.h>
+#include <weft/planar/mesh/Element_soup_2.h>
+#include <weft/spatial/mesh/Element_soup_3.h>
 
 #include <CGAL/number_utils.h>
 
@@ -18,8 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// The points without their z, which must be the same for all that are finite.
 template <class K>
@@ -69,7 +68,6 @@ Imported_mesh_2<K> assemble_from_file(const std::string& filename, Element_soup_
   }
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_READ_PLANAR_ELEMENTS_H

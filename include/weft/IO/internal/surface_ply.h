@@ -8,7 +8,7 @@
 
 #include <weft/errors.h>
 #include <weft/IO/internal/Line_reader.h>
-#include <weft/spatial/Polygon_soup_3.h>
+#include <weft/spatial/surface/Polygon_soup_3.h>
 
 #include <algorithm>
 #include <array>
@@ -26,8 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 enum class Ply_type
 {
@@ -293,7 +292,6 @@ Polygon_soup_3<K> read_ply_surface(const std::string& filename)
   return soup;
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_SURFACE_PLY_H

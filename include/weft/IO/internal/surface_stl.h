@@ -7,7 +7,7 @@
 #define WEFT_IO_INTERNAL_SURFACE_STL_H
 
 #include <weft/IO/internal/Line_reader.h>
-#include <weft/spatial/Polygon_soup_3.h>
+#include <weft/spatial/surface/Polygon_soup_3.h>
 
 #include <array>
 #include <cmath>
@@ -21,8 +21,7 @@
 #include <string_view>
 #include <utility>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// Collects facets corner by corner; equal corners become one point, numbered by first appearance.
 template <class K>
@@ -136,7 +135,6 @@ Polygon_soup_3<K> read_stl_surface(const std::string& filename)
                               : std::string("neither text nor binary STL"));
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_SURFACE_STL_H

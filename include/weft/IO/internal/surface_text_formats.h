@@ -7,15 +7,14 @@
 #define WEFT_IO_INTERNAL_SURFACE_TEXT_FORMATS_H
 
 #include <weft/IO/internal/Line_reader.h>
-#include <weft/spatial/Polygon_soup_3.h>
+#include <weft/spatial/surface/Polygon_soup_3.h>
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 /// The three coordinates that come next.
 template <class Point>
@@ -92,7 +91,6 @@ Polygon_soup_3<K> read_obj_surface(const std::string& filename)
   return soup;
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_SURFACE_TEXT_FORMATS_H

@@ -9,8 +9,7 @@
 
 #include <string>
 
-namespace weft {
-namespace internal {
+namespace weft::internal {
 
 inline Text_writer& begin_vtu_array(Text_writer& out, const std::string& type, const std::string& name)
 {
@@ -22,7 +21,6 @@ inline void end_vtu_array(Text_writer& out)
   out << "        </DataArray>\n";
 }
 
-} // namespace internal
-} // namespace weft
+} // namespace weft::internal
 
 #endif // WEFT_IO_INTERNAL_VTU_ARRAY_H

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How bad the simplices of a restricted Delaunay triangulation are, by every criterion (Tournois 2009, sec. 3.2.1.4,
+// "Bad Elements").
+
+#ifndef WEFT_SPATIAL_CRITERIA_BADNESS_MEASURE_3_H
+#define WEFT_SPATIAL_CRITERIA_BADNESS_MEASURE_3_H
+
+#include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/restricted/Mesh_triangulation_3.h>
+
+#include <CGAL/Kernel/global_functions.h>
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+namespace weft::internal {
+
+/// Measures simplices against criteria loosened by a factor, which takes part in sizes, distances and shapes.
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Badness_measure_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+
+  Badness_measure_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria, double factor)
+      : mesh_(&mesh), criteria_(&criteria), factor_(factor)
+  {}
+
+  double factor() const { return factor_; }
+  const Criteria_3<Kernel>& criteria() const { return *criteria_; }
+
+  /// A cell of the domain: size and shape, and what its subdomain or the user asks for.
+  Badness_3 cell(Cell_handle c) const
+  {
+    const std::array<const Point*, 4> p{
+        {&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()}};
+    Badness_3 badness = cell(p, c->circumcenter());
+    const auto own = criteria_->subdomains.find(c->subdomain());
+    if (own != criteria_->subdomains.end()) add_own_criteria(p, c->circumcenter(), own->second, badness);
+    if (criteria_->cell_demand && factor_ <= 1)
+      badness.add(criteria_->cell_demand({p,
+                                          {{c->vertex(0)->location(), c->vertex(1)->location(),
+                                            c->vertex(2)->location(), c->vertex(3)->location()}},
+                                          &c->circumcenter(),
+                                          c->subdomain()}),
+                  bad_demand);
+    return badness;
+  }
+
+  /// A cell that isn't there yet: size and shape as asked for everywhere.
+  Badness_3 cell(const std::array<const Point*, 4>& p, const Point& circumcenter) const
+  {
+    Badness_3 badness;
+    double shortest = -1;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) add_edge(*p[i], *p[j], badness, shortest);
+    if (criteria_->cell_shape > 0) {
+      const double r = squared(circumcenter, *p[0]);
+      badness.add(std::sqrt(r / shortest) / (factor_ * criteria_->cell_shape), bad_shape);
+    }
+    return badness;
+  }
+
+  /// Whether a cell that isn't there yet would be bad by that, up to rounding; without square roots.
+  bool is_bad_cell(const Point& p, const Point& q, const Point& r, const Point& s) const
+  {
+    const double a[] = {squared(p, q), squared(p, r), squared(p, s), squared(q, r), squared(q, s), squared(r, s)};
+    if (is_too_long(p, q, a[0]) || is_too_long(p, r, a[1]) || is_too_long(p, s, a[2]) || is_too_long(q, r, a[3]) ||
+        is_too_long(q, s, a[4]) || is_too_long(r, s, a[5]))
+      return true;
+    const double ratio = factor_ * criteria_->cell_shape;
+    if (ratio == 0) return false;
+    const auto u = q - p, v = r - p, w = s - p, vw = CGAL::cross_product(v, w);
+    const double det = CGAL::to_double(u * vw);
+    const auto center = a[0] * vw + a[1] * CGAL::cross_product(w, u) + a[2] * CGAL::cross_product(u, v);
+    return CGAL::to_double(center.squared_length()) >
+           4 * det * det * ratio * ratio * *std::min_element(std::begin(a), std::end(a));
+  }
+
+  /// The same for a facet, by size and shape.
+  bool is_bad_facet(const Point& p, const Point& q, const Point& r) const
+  {
+    const double pq = squared(p, q), qr = squared(q, r), rp = squared(r, p);
+    if (is_too_long(p, q, pq) || is_too_long(q, r, qr) || is_too_long(r, p, rp)) return true;
+    const double ratio = factor_ * criteria_->facet_shape;
+    return ratio > 0 && facet_squared_radius(p, q, r) > ratio * ratio * (std::min)({pq, qr, rp});
+  }
+
+  /// A restricted facet: size, approximation, shape, and topology where it is asked for. A facet that doesn't separate
+  /// the domain from the outside lacks a disk.
+  Badness_3 facet(const typename Restricted::Restricted_facet& f) const
+  {
+    Badness_3 badness;
+    const Vertex_handle v[] = {vertex(f, 1), vertex(f, 2), vertex(f, 3)};
+    double shortest = -1;
+    for (int i = 0; i < 3; ++i) add_edge(v[i]->point(), v[(i + 1) % 3]->point(), badness, shortest);
+    const double radius = facet_squared_radius(v[0]->point(), v[1]->point(), v[2]->point());
+    if (criteria_->facet_shape > 0)
+      badness.add(std::sqrt(radius / shortest) / (factor_ * criteria_->facet_shape), bad_shape);
+    if (criteria_->approximation) {
+      const double bound = factor_ * criteria_->approximation(f.steiner);
+      badness.add(approximation_error(f) / bound, bad_approximation);
+      if (!badness.is_bad()) badness.add(worst_missed_point(f).ratio, bad_approximation);
+    }
+    const auto own = criteria_->patches.find(f.patch);
+    if (own != criteria_->patches.end()) add_own_criteria(f, v, shortest, radius, own->second, badness);
+    if (criteria_->facet_demand && factor_ <= 1)
+      badness.add(criteria_->facet_demand({{{&v[0]->point(), &v[1]->point(), &v[2]->point()}},
+                                           {{v[0]->location(), v[1]->location(), v[2]->location()}},
+                                           &f.steiner,
+                                           f.patch}),
+                  bad_demand);
+    const bool is_astray = std::any_of(v, v + 3, [](Vertex_handle w) { return w->location().dimension > 2; });
+    if (is_astray || (criteria_->topology && !on_one_patch(v, f.patch))) badness.add(just_bad, bad_topology);
+    if (!mesh_->is_boundary(f)) badness.add(just_bad, bad_disk);
+    return badness;
+  }
+
+  /// A crease edge: size, approximation, both ends on its crease, and that crease nowhere else near them.
+  Badness_3 crease_edge(const typename Restricted::Crease_edge& e) const
+  {
+    Badness_3 badness;
+    double shortest = -1;
+    const Point &a = e.source->point(), &b = e.target->point();
+    add_edge(a, b, badness, shortest);
+    if (criteria_->crease_size) add_edge(a, b, criteria_->crease_size, badness);
+    if (criteria_->approximation)
+      badness.add(std::sqrt(squared(CGAL::midpoint(a, b), e.steiner)) / (factor_ * criteria_->approximation(e.steiner)),
+                  bad_approximation);
+    if (!is_on_crease(e.source, e.crease) || !is_on_crease(e.target, e.crease)) badness.add(just_bad, bad_topology);
+    if (e.is_tangled) badness.add(just_bad, bad_disk);
+    return badness;
+  }
+
+  /// Distance from the circumcenter of a facet to its Steiner point.
+  double approximation_error(const typename Restricted::Restricted_facet& f) const
+  {
+    const double r = facet_squared_radius(vertex(f, 1)->point(), vertex(f, 2)->point(), vertex(f, 3)->point());
+    return std::sqrt((std::max)(0.0, f.squared_radius - r)); // Pythagoras: both lie on the axis of the facet
+  }
+
+  /// A point of the surface that a facet misses.
+  struct Missed_point
+  {
+    Point point;
+    double ratio = 0;      ///< of its distance from the facet to the bound for it
+    bool is_vertex = true; ///< whether a vertex there would help
+  };
+
+  /// Of the salient points of the surface in the surface Delaunay ball of a facet that project into the facet, the
+  /// one that is missed worst: tips, and points of folds. What the Steiner point alone doesn't see, beside the axis of
+  /// the facet.
+  Missed_point worst_missed_point(const typename Restricted::Restricted_facet& f) const
+  {
+    Missed_point worst{f.steiner};
+    if (!criteria_->approximation) return worst;
+    const double bound = factor_ * criteria_->approximation(f.steiner);
+    const Point &a = vertex(f, 1)->point(), &b = vertex(f, 2)->point(), &c = vertex(f, 3)->point();
+    const Prism prism(a, b, c);
+    const auto take = [&](const Point& p, double tolerance, bool is_vertex) {
+      if (p == a || p == b || p == c || squared(p, f.steiner) >= f.squared_radius) return;
+      const double ratio = prism.height(p) / (tolerance * bound);
+      if (ratio > worst.ratio) worst = {p, ratio, is_vertex};
+    };
+    mesh_->oracle().visit_salient_points(f.steiner, f.squared_radius, f.patch, [&](const Point& p, bool attracts) {
+      if (attracts && prism.contains(p)) take(p, tip_tolerance, true);
+    });
+    const double least = (std::min)(ridge_tolerance, sharp_tolerance) * bound;
+    mesh_->oracle().visit_ridges(f.steiner, f.squared_radius, f.patch,
+                                 [&](const Point& p, const Point& q, bool attracts) {
+                                   if (prism.height(p) < least && prism.height(q) < least)
+                                     return; // it is less in between
+                                   double low = 0, high = 1;
+                                   if (!prism.clip(p, q, low, high)) return;
+                                   for (const double t : {low, high})
+                                     take(p + t * (q - p), attracts ? ridge_tolerance : sharp_tolerance, attracts);
+                                 });
+    return worst;
+  }
+
+  /// Longest edge wanted at a place, loosened like everything else.
+  double size(const Point& p) const
+  {
+    return factor_ * (criteria_->size.is_constant() ? criteria_->size.constant() : criteria_->size(p));
+  }
+
+  /// Distance from the surface wanted at a place, loosened likewise; 0: any.
+  double approximation(const Point& p) const
+  {
+    return criteria_->approximation ? factor_ * criteria_->approximation(p) : 0;
+  }
+
+  /// Vertex i in 1..3 of a restricted facet.
+  static Vertex_handle vertex(const typename Restricted::Restricted_facet& f, int i)
+  {
+    return f.cell->vertex((f.index + i) % 4);
+  }
+
+  /// Whether a vertex lies on a crease or is the feature vertex at an end of it.
+  bool is_on_crease(Vertex_handle v, int crease) const
+  {
+    const Vertex_location_3& at = v->location();
+    return (at.dimension == 1 && at.index == crease) ||
+           (at.dimension == 0 && mesh_->incidence().corner_is_on_crease(at.index, crease));
+  }
+
+  /// Tips may stick out farther than the approximation bound, which is about Steiner points: less takes many vertices,
+  /// more lets the distance to the surface grow.
+  static constexpr double tip_tolerance = 1.5;
+
+  /// The same for points of ridges, between tips, and of sharp edges that aren't creases. Less for ridges costs few
+  /// vertices, less for sharp edges more.
+  static constexpr double ridge_tolerance = 2.2, sharp_tolerance = 2.5;
+
+  /// A ratio for what is bad or not without a measure.
+  static constexpr double just_bad = 1.0001;
+
+private:
+  static double squared(const Point& p, const Point& q) { return CGAL::to_double(CGAL::squared_distance(p, q)); }
+
+  bool is_too_long(const Point& p, const Point& q, double squared_length) const
+  {
+    const double bound =
+        factor_ * (criteria_->size.is_constant() ? criteria_->size.constant() : criteria_->size(CGAL::midpoint(p, q)));
+    return squared_length > bound * bound;
+  }
+
+  void add_edge(const Point& p, const Point& q, Badness_3& badness, double& shortest) const
+  {
+    const double length = squared(p, q);
+    if (shortest < 0 || length < shortest) shortest = length;
+    add_edge(p, q, criteria_->size, badness);
+  }
+
+  void add_edge(const Point& p, const Point& q, const Length_field_3<Kernel>& field, Badness_3& badness) const
+  {
+    const double size = field.is_constant() ? field.constant() : field(CGAL::midpoint(p, q));
+    badness.add(std::sqrt(squared(p, q)) / (factor_ * size), bad_size);
+  }
+
+  void add_own_criteria(const std::array<const Point*, 4>& p, const Point& circumcenter,
+                        const Subdomain_criteria_3<Kernel>& own, Badness_3& badness) const
+  {
+    double shortest = HUGE_VAL;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        shortest = (std::min)(shortest, squared(*p[i], *p[j]));
+        if (own.size) add_edge(*p[i], *p[j], own.size, badness);
+      }
+    if (own.cell_shape > 0)
+      badness.add(std::sqrt(squared(circumcenter, *p[0]) / shortest) / (factor_ * own.cell_shape), bad_shape);
+  }
+
+  void add_own_criteria(const typename Restricted::Restricted_facet& f, const Vertex_handle (&v)[3], double shortest,
+                        double squared_radius, const Patch_criteria_3<Kernel>& own, Badness_3& badness) const
+  {
+    if (own.size)
+      for (int i = 0; i < 3; ++i) add_edge(v[i]->point(), v[(i + 1) % 3]->point(), own.size, badness);
+    if (own.facet_shape > 0) badness.add(std::sqrt(squared_radius / shortest) / (factor_ * own.facet_shape), bad_shape);
+    if (own.approximation)
+      badness.add(approximation_error(f) / (factor_ * own.approximation(f.steiner)), bad_approximation);
+  }
+
+  /// The points that project into a triangle.
+  class Prism
+  {
+  public:
+    Prism(const Point& a, const Point& b, const Point& c) : corners_{{a, b, c}}
+    {
+      normal_ = CGAL::cross_product(b - a, c - a);
+      const double length = std::sqrt(CGAL::to_double(normal_.squared_length()));
+      if (length > 0) normal_ = normal_ / length;
+      for (std::size_t i = 0; i < 3; ++i)
+        inward_[i] = CGAL::cross_product(normal_, corners_[(i + 1) % 3] - corners_[i]);
+    }
+
+    double height(const Point& p) const { return std::abs(CGAL::to_double((p - corners_[0]) * normal_)); }
+
+    bool contains(const Point& p) const
+    {
+      for (std::size_t i = 0; i < 3; ++i)
+        if ((p - corners_[i]) * inward_[i] < 0) return false;
+      return true;
+    }
+
+    /// Shortens the stretch of the segment pq between `low` and `high` to what projects into the triangle; returns
+    /// whether something is left.
+    bool clip(const Point& p, const Point& q, double& low, double& high) const
+    {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double s = CGAL::to_double((p - corners_[i]) * inward_[i]),
+                     t = CGAL::to_double((q - corners_[i]) * inward_[i]);
+        if (s < 0 && t < 0) return false;
+        if (s < 0) low = (std::max)(low, s / (s - t));
+        if (t < 0) high = (std::min)(high, s / (s - t));
+      }
+      return low <= high;
+    }
+
+  private:
+    using Vector = typename Kernel::Vector_3;
+    std::array<Point, 3> corners_;
+    Vector normal_;
+    std::array<Vector, 3> inward_;
+  };
+
+  static double facet_squared_radius(const Point& a, const Point& b, const Point& c)
+  {
+    const double ab = squared(a, b), bc = squared(b, c), ca = squared(c, a);
+    const auto cross = CGAL::cross_product(b - a, c - a);
+    const double area = CGAL::to_double(cross.squared_length()); // four times the squared area
+    return area > 0 ? ab * bc * ca / (4 * area) : HUGE_VAL;
+  }
+
+  bool on_one_patch(const Vertex_handle (&v)[3], int patch) const
+  {
+    for (const Vertex_handle w : v)
+      if (!mesh_->incidence().is_on_patch(w->location(), patch)) return false;
+    return true;
+  }
+
+  const Restricted* mesh_;
+  const Criteria_3<Kernel>* criteria_;
+  double factor_;
+};
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_CRITERIA_BADNESS_MEASURE_3_H

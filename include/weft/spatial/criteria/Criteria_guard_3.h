@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Watches that optimisation undoes nothing that refinement has achieved: which elements violate a criterion, lack a
+// topological disk, hang on an interior vertex or lie farther from the surface than any facet did at the start. What
+// was bad at the start is tolerated. One guard may watch several stages one after the other: what they may not undo is
+// then what held before the first of them.
+
+#ifndef WEFT_SPATIAL_CRITERIA_CRITERIA_GUARD_3_H
+#define WEFT_SPATIAL_CRITERIA_CRITERIA_GUARD_3_H
+
+#include <weft/spatial/criteria/Badness_measure_3.h>
+#include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/criteria/Deviation_3.h>
+#include <weft/spatial/mesh/circumcenter_3.h>
+#include <weft/spatial/restricted/topological_disk_3.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <vector>
+
+namespace weft::internal {
+
+/// What refuses a change.
+enum class Refusal_3
+{
+  none,
+  cell,
+  facet,
+  crease,
+  disk,
+  bare ///< a patch would lose its last facet, or a crease its last edge
+};
+
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Criteria_guard_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Facet = typename Restricted::Restricted_facet;
+  using Crease_edge = typename Restricted::Crease_edge;
+
+  /// An element by the ids of its vertices in falling order, filled up with -1.
+  using Element = std::array<int, 4>;
+
+  /// Elements that are bad now are tolerated from now on, as long as they don't get worse. Linear in the size of the
+  /// mesh.
+  Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
+      : mesh_(mesh), measure_(mesh, criteria, 1), deviation_(mesh), allowed_(criteria.deviation)
+  {
+    const Part all = everything();
+    const CGAL::Bbox_3 b = mesh.oracle().bbox();
+    const double rounding = 1e-6 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
+    farthest_ = {rounding * rounding, rounding * rounding}; // all that is seen on flat patches
+    // Most facets needn't be measured, once a far one is known: a quarter of the time.
+    for (const int record : all.facets) farthest_.raise_to(deviation_.beyond(farthest_, facet(record)));
+    farthest_.depth *= closer * closer;
+    farthest_of_crease_ = rounding * rounding;
+    for (const Crease_edge& e : mesh.creases().edges())
+      farthest_of_crease_ = (std::max)(farthest_of_crease_, deviation_.of(e));
+    tolerate(all);
+    for (int p = 0; p < mesh.oracle().number_of_patches(); ++p)
+      if (mesh.number_of_facets(p) > 0) patches_.push_back(p);
+    for (std::size_t c = 0; c < mesh.creases().number_of_creases(); ++c)
+      if (mesh.creases().number_of_edges(c) > 0) creases_.push_back(c);
+  }
+
+  const Restricted& mesh() const { return mesh_; }
+  const Badness_measure_3<Restricted>& measure() const { return measure_; }
+
+  /// Before anything is classified: whether cells would be good if they belong to the domain, which their circumcenters
+  /// decide. Sets those.
+  bool may_accept(const std::vector<Cell_handle>& cells) const
+  {
+    for (const Cell_handle c : cells) {
+      if (Restricted::is_at_box(c)) continue;
+      c->set_circumcenter(circumcenter_3<Kernel>(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
+                                                 c->vertex(3)->point()));
+      if (offends(key(c), unlabelled_grade(c)) && mesh_.oracle().subdomain(c->circumcenter()) != 0) return false;
+    }
+    return true;
+  }
+
+  /// The first fault found in what the last change has made. Unlike `new_offenders()` it ends at the first, looks
+  /// crease edges up only where the change was, and sees patches and creases that have lost everything.
+  Refusal_3 refusal() const
+  {
+    for (const Cell_handle c : mesh_.new_cells())
+      if (c->subdomain() != 0 && offends(key(c), grade(c))) return Refusal_3::cell;
+    for (const int record : mesh_.new_facets())
+      if (offends(key(facet(record)), grade_by_criteria(facet(record)))) return Refusal_3::facet;
+    for (const Cell_handle c : mesh_.new_cells())
+      if (has_bad_crease_edge(c)) return Refusal_3::crease;
+    for (const int id : boundary_vertices(mesh_.new_cells()))
+      if (offends({id, -1, -1, -1}, grade(vertex(id)))) return Refusal_3::disk;
+    for (const int record : mesh_.new_facets()) // the dearest last
+      if (offends(key(facet(record)), grade_by_distance(facet(record)))) return Refusal_3::facet;
+    return has_bare_part() ? Refusal_3::bare : Refusal_3::none;
+  }
+  bool accepts_change() const { return refusal() == Refusal_3::none; }
+
+  /// The bad elements among those that the last change of the mesh has made, and all bad crease edges.
+  std::vector<Element> new_offenders() const
+  {
+    std::vector<Element> bad;
+    visit_bad({mesh_.new_cells(), mesh_.new_facets()}, [&](const Element& e, const Grade& grade) {
+      if (offends(e, grade)) bad.push_back(e);
+    });
+    return bad;
+  }
+
+  /// Tolerates what is bad now, too, as after changes that were judged by the elements that they made: how far the
+  /// surface is from a facet hangs on the facets around it, too. Linear in the size of the mesh.
+  void tolerate_all() { tolerate(everything()); }
+
+  /// To be called when all vertices get new numbers.
+  /// \param numbers the new ones by the old ones; -1 for vertices that are gone.
+  void renumber(const std::vector<int>& numbers)
+  {
+    std::map<Element, Grade> renumbered;
+    for (const auto& [element, grade] : tolerated_) {
+      Element ids = element;
+      bool exists = true;
+      for (int& id : ids) {
+        if (id < 0) continue;
+        id = numbers[static_cast<std::size_t>(id)];
+        exists = exists && id >= 0;
+      }
+      if (exists) renumbered[sorted(ids)] = grade;
+    }
+    tolerated_.swap(renumbered);
+  }
+
+  /// To be called when a vertex number gets another meaning: what was tolerated at it isn't any more.
+  void forget(int id)
+  {
+    for (auto i = tolerated_.begin(); i != tolerated_.end();)
+      i = std::find(i->first.begin(), i->first.end(), id) == i->first.end() ? std::next(i) : tolerated_.erase(i);
+  }
+
+  /// Whether an element exists and is bad.
+  bool is_offending(const Element& e) const
+  {
+    const auto& tr = mesh_.triangulation();
+    Cell_handle c;
+    int i, j, k, l;
+    if (e[3] >= 0)
+      return tr.is_cell(vertex(e[0]), vertex(e[1]), vertex(e[2]), vertex(e[3]), c, i, j, k, l) && c->subdomain() != 0 &&
+             offends(e, grade(c));
+    if (e[2] >= 0) {
+      if (!tr.is_facet(vertex(e[0]), vertex(e[1]), vertex(e[2]), c, i, j, k)) return false;
+      const Facet* f = mesh_.facet(c, 6 - i - j - k);
+      return f && offends(e, grade(*f));
+    }
+    if (e[1] >= 0) {
+      const Crease_edge* edge = mesh_.creases().edge(vertex(e[0]), vertex(e[1]));
+      return edge && offends(e, grade(*edge));
+    }
+    return offends(e, grade(vertex(e[0])));
+  }
+
+private:
+  struct Part
+  {
+    std::vector<Cell_handle> cells;
+    std::vector<int> facets; ///< numbers of records
+  };
+
+  /// How bad an element is; zeros for a good one.
+  struct Grade
+  {
+    double badness = 0;           ///< ratio of its worst measure to the bound
+    double depth = 0, height = 0; ///< squared distances between it and the surface, see Deviation_3
+    int astray = 0;               ///< of a boundary facet, vertices that don't lie on the boundary
+
+    bool is_bad() const { return badness > 0 || depth > 0 || height > 0 || astray > 0; }
+    bool exceeds(const Grade& other) const
+    {
+      constexpr double slack = 1 + 1e-9;
+      return badness > slack * other.badness || depth > slack * other.depth || height > slack * other.height ||
+             astray > other.astray;
+    }
+  };
+
+  Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
+  const Facet& facet(int record) const { return mesh_.facets()[static_cast<std::size_t>(record)]; }
+
+  Part everything() const
+  {
+    Part all;
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) all.cells.push_back(c);
+    for (std::size_t f = 0; f < mesh_.facets().size(); ++f)
+      if (mesh_.facets()[f].cell != Cell_handle()) all.facets.push_back(static_cast<int>(f));
+    return all;
+  }
+
+  void tolerate(const Part& part)
+  {
+    visit_bad(part, [this](const Element& e, const Grade& grade) {
+      if (offends(e, grade)) tolerated_[e] = grade;
+    });
+  }
+
+  /// Calls `visit(element, grade)` for the bad elements of a part, and for all bad crease edges.
+  template <class Visit>
+  void visit_bad(const Part& part, const Visit& visit) const
+  {
+    const auto look = [&](const Element& e, const Grade& grade) {
+      if (grade.is_bad()) visit(e, grade);
+    };
+    if (part.facets.size() > mesh_.facets().size() / 10) mesh_.list_facets_at_vertices();
+    for (const int record : part.facets)
+      if (facet(record).cell != Cell_handle()) look(key(facet(record)), grade(facet(record)));
+    for (const Cell_handle c : part.cells)
+      if (c->subdomain() != 0) look(key(c), grade(c));
+    for (const Crease_edge& e : mesh_.creases().edges()) look(key(e), grade(e));
+    for (const int id : boundary_vertices(part.cells)) look({id, -1, -1, -1}, grade(vertex(id)));
+  }
+
+  bool offends(const Element& e, const Grade& grade) const
+  {
+    if (!grade.is_bad()) return false;
+    const auto found = tolerated_.find(e);
+    return found == tolerated_.end() || grade.exceeds(found->second);
+  }
+
+  bool has_bare_part() const
+  {
+    return std::any_of(patches_.begin(), patches_.end(), [this](int p) { return mesh_.number_of_facets(p) == 0; }) ||
+           std::any_of(creases_.begin(), creases_.end(),
+                       [this](std::size_t c) { return mesh_.creases().number_of_edges(c) == 0; });
+  }
+
+  // ---- grades
+
+  Grade grade(Cell_handle c) const { return {ratio(measure_.cell(c)), 0, 0, 0}; }
+  Grade unlabelled_grade(Cell_handle c) const
+  {
+    return {ratio(measure_.cell(
+                {&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()},
+                c->circumcenter())),
+            0, 0, 0};
+  }
+
+  Grade grade(const Facet& f) const
+  {
+    Grade grade = grade_by_criteria(f);
+    const Grade distance = grade_by_distance(f);
+    grade.depth = distance.depth;
+    grade.height = distance.height;
+    return grade;
+  }
+
+  Grade grade_by_criteria(const Facet& f) const
+  {
+    Grade grade{ratio(measure_.facet(f)), 0, 0, 0};
+    for (int i = 1; i < 4; ++i) grade.astray += f.cell->vertex((f.index + i) & 3)->location().dimension > 2;
+    return grade;
+  }
+
+  Grade grade_by_distance(const Facet& f) const
+  {
+    const Squared_deviation_3 d = deviation_.beyond(bound_at(f.steiner), f);
+    return {0, d.depth, d.height, 0};
+  }
+
+  Grade grade(const Crease_edge& e) const
+  {
+    const double d = deviation_.of(e), allowed = allowed_ ? allowed_(e.steiner) : 0;
+    const double farthest = (std::max)(farthest_of_crease_, allowed * allowed);
+    return {ratio(measure_.crease_edge(e)), d > farthest ? d : 0, 0, 0};
+  }
+
+  Squared_deviation_3 bound_at(const typename Restricted::Point& p) const
+  {
+    Squared_deviation_3 bound = farthest_;
+    const double allowed = allowed_ ? allowed_(p) : 0;
+    bound.raise_to({allowed * allowed, allowed * allowed});
+    return bound;
+  }
+
+  static double ratio(const Badness_3& badness) { return badness.is_bad() ? badness.ratio : 0; }
+
+  Grade grade(Vertex_handle v) const { return {has_topological_disk(mesh_, v) ? 0. : 1., 0, 0, 0}; }
+
+  bool has_bad_crease_edge(Cell_handle c) const
+  {
+    if (mesh_.creases().edges().empty()) return false;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i + 1; j < 4; ++j) {
+        const Crease_edge* e = mesh_.creases().edge(c->vertex(i), c->vertex(j));
+        if (e && offends(key(*e), grade(*e))) return true;
+      }
+    return false;
+  }
+
+  static std::vector<int> boundary_vertices(const std::vector<Cell_handle>& cells)
+  {
+    std::vector<int> ids;
+    for (const Cell_handle c : cells)
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i)->id() >= 0 && c->vertex(i)->location().dimension <= 2) ids.push_back(c->vertex(i)->id());
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
+  }
+
+  static Element sorted(Element ids)
+  {
+    std::sort(ids.begin(), ids.end(), [](int a, int b) { return a > b; });
+    return ids;
+  }
+  static Element key(const Crease_edge& e) { return sorted({e.source->id(), e.target->id(), -1, -1}); }
+  static Element key(Cell_handle c)
+  {
+    return sorted({c->vertex(0)->id(), c->vertex(1)->id(), c->vertex(2)->id(), c->vertex(3)->id()});
+  }
+  static Element key(const Facet& f)
+  {
+    const auto id = [&f](int i) { return f.cell->vertex((f.index + i) & 3)->id(); };
+    return sorted({id(1), id(2), id(3), -1});
+  }
+
+  const Restricted& mesh_;
+  Badness_measure_3<Restricted> measure_;
+  std::map<Element, Grade> tolerated_;
+  std::vector<int> patches_;         ///< that have facets
+  std::vector<std::size_t> creases_; ///< that have edges
+  Deviation_3<Restricted> deviation_;
+  Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
+  Squared_deviation_3 farthest_;   ///< that facets may be
+  double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
+  /// For what lies between the samples of facets.
+  static constexpr double closer = 0.85;
+};
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_CRITERIA_CRITERIA_GUARD_3_H

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far the boundary of a mesh and the surface are from each other, element by element. The approximation criterion
+// is about one point of a facet or crease edge, and alone lets that distance drift away while vertices move.
+
+#ifndef WEFT_SPATIAL_CRITERIA_DEVIATION_3_H
+#define WEFT_SPATIAL_CRITERIA_DEVIATION_3_H
+
+#include <weft/internal/boxes/nearest_point_3.h>
+#include <weft/spatial/restricted/Restricted_delaunay_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <boost/container_hash/hash.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace weft::internal {
+
+/// Squared distances between a facet and the surface.
+struct Squared_deviation_3
+{
+  double depth = 0;  ///< from the facet to the surface
+  double height = 0; ///< from salient points of the surface to the boundary of the mesh
+
+  void raise_to(const Squared_deviation_3& other)
+  {
+    depth = (std::max)(depth, other.depth);
+    height = (std::max)(height, other.height);
+  }
+};
+
+/// Measures boundary facets and crease edges against the surface.
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Deviation_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Facet = typename Restricted::Restricted_facet;
+  using Crease_edge = typename Restricted::Crease_edge;
+
+  /// \param mesh has to live as long as this object.
+  explicit Deviation_3(const Restricted& mesh) : mesh_(&mesh) {}
+
+  Squared_deviation_3 of(const Facet& f) const { return {depth(f), height(f, 0)}; }
+
+  /// The same but 0 where it isn't beyond a bound, which is much cheaper to tell.
+  Squared_deviation_3 beyond(const Squared_deviation_3& bound, const Facet& f) const
+  {
+    const bool is_deep = !for_each_sample(f, [&](const Point& p) { return mesh_->oracle().is_within(p, bound.depth); });
+    return {is_deep ? depth(f) : 0, height(f, bound.height)};
+  }
+
+  /// Squared distance of the farthest corner of a crease from the edge that stands for it there: those corners to both
+  /// sides of its Steiner point whose projections lie between the ends of the edge.
+  double of(const Crease_edge& e) const
+  {
+    const auto& points = mesh_->creases().points(static_cast<std::size_t>(e.steiner_crease));
+    const auto& a = e.source->point();
+    const auto ab = e.target->point() - a;
+    const double length = CGAL::to_double(ab.squared_length());
+    double farthest = 0;
+    const auto visit = [&](std::size_t i) {
+      const auto ap = points[i] - a;
+      const double t = CGAL::to_double(ap * ab) / length;
+      if (!(t > 0 && t < 1)) return false;
+      farthest = (std::max)(farthest, CGAL::to_double((ap - t * ab).squared_length()));
+      return true;
+    };
+    const auto middle = static_cast<std::size_t>(e.position);
+    for (std::size_t i = middle + 1; i < points.size() && visit(i);) ++i;
+    for (std::size_t i = middle + 1; i-- > 0 && visit(i);) {
+    }
+    return farthest;
+  }
+
+private:
+  /// Calls `visit(point)` for a few points of a facet until it returns false; whether it never did.
+  template <class Visit>
+  static bool for_each_sample(const Facet& f, const Visit& visit)
+  {
+    const Point& a = corner(f, 1);
+    const auto ab = corner(f, 2) - a, ac = corner(f, 3) - a;
+    for (const auto& [s, t] : samples)
+      if (!visit(a + s * ab + t * ac)) return false;
+    return true;
+  }
+
+  /// Of these points, the farthest from the surface.
+  double depth(const Facet& f) const
+  {
+    double deepest = 0;
+    for_each_sample(f, [&](const Point& p) {
+      deepest = (std::max)(deepest, CGAL::to_double(CGAL::squared_distance(p, mesh_->oracle().closest(p).point)));
+      return true;
+    });
+    return deepest;
+  }
+
+  /// The other way round: of the salient points of the surface near the facet and of some points of its ridges, the
+  /// farthest from the facet and from those around it; 0 if that isn't beyond the bound. With ends of attracting folds
+  /// alone, whole runs raise the distance unseen.
+  double height(const Facet& f, double bound) const
+  {
+    double highest = bound;
+    thread_local std::vector<const Facet*> around;
+    around.clear();
+    const auto look = [&](const Point& p) {
+      Near_point& known = what_is_known(p);
+      if (known.bound <= highest) return;
+      if (squared_distance(p, f) > highest) {
+        if (around.empty())
+          for (int i = 1; i <= 3; ++i) list_star(f.cell->vertex((f.index + i) & 3), around);
+        const double distance = is_within(p, highest, around) ? 0 : squared_distance_from_around(p, highest, f, known);
+        if (distance > highest) {
+          highest = distance;
+          return;
+        }
+      }
+      known.bound = highest;
+    };
+    const double squared_reach = 1.2 * 1.2 * f.squared_radius; // tips stick out of surface Delaunay balls
+    mesh_->oracle().visit_salient_points(f.steiner, squared_reach, f.patch, [&](const Point& p, bool) { look(p); });
+    mesh_->oracle().visit_ridges(f.steiner, squared_reach, f.patch, [&](const Point& p, const Point& q, bool) {
+      // The distance from a facet is convex along a segment.
+      if (squared_distance(p, f) <= highest && squared_distance(q, f) <= highest) return;
+      for (const double t : along_ridges) {
+        const Point r = p + t * (q - p);
+        if (CGAL::squared_distance(r, f.steiner) < squared_reach) look(r);
+      }
+    });
+    return highest > bound ? highest : 0;
+  }
+
+  // ---- what is known of salient points
+
+  /// The facets around look at the same points: to find a near facet once is enough, as long as the mesh stays, and so
+  /// is to have looked all around in vain.
+  struct Near_point
+  {
+    Point point;
+    int version = -1; ///< of the mesh then
+    double bound;     ///< squared, within which a facet was found; else infinite
+    double around;    ///< squared distance from all facets around; negative unless measured
+  };
+
+  /// Of a point: what was found in this version of the mesh.
+  Near_point& what_is_known(const Point& p) const
+  {
+    Near_point& known = known_[slot(p)];
+    if (known.version != mesh_->version() || known.point != p) known = {p, mesh_->version(), HUGE_VAL, -1};
+    return known;
+  }
+
+  std::size_t slot(const Point& p) const
+  {
+    std::size_t hash = 0;
+    for (int k = 0; k < 3; ++k) boost::hash_combine(hash, CGAL::to_double(p[k]));
+    return hash % known_.size();
+  }
+
+  static const Point& corner(const Facet& f, int i) { return f.cell->vertex((f.index + i) & 3)->point(); }
+
+  static double squared_distance(const Point& p, const Facet& f)
+  {
+    return CGAL::to_double(
+        CGAL::squared_distance(p, nearest_point_on_triangle(p, corner(f, 1), corner(f, 2), corner(f, 3))));
+  }
+
+  void list_star(Vertex_handle v, std::vector<const Facet*>& facets) const
+  {
+    for_each_facet_at(*mesh_, v, [&facets](const Facet& f) { facets.push_back(&f); });
+  }
+
+  /// Whether one of some facets is within a bound; that one comes first from then on, as the next point is near to p.
+  static bool is_within(const Point& p, double bound, std::vector<const Facet*>& facets)
+  {
+    const auto found =
+        std::find_if(facets.begin(), facets.end(), [&](const Facet* f) { return squared_distance(p, *f) <= bound; });
+    if (found == facets.end()) return false;
+    std::swap(*found, facets.front());
+    return true;
+  }
+
+  /// From a facet, those at the vertices of the cell around p and at those beside the vertex nearest to it; 0 if that
+  /// isn't beyond a bound. With only those beside the facet, points on the other side of a thin sheet seem to be far
+  /// from a mesh of it, and hide what gets farther than any was before.
+  double squared_distance_from_around(const Point& p, double bound, const Facet& f, Near_point& known) const
+  {
+    if (known.around < 0) {
+      const double around = squared_distance_from_around(p, bound, f.cell);
+      if (around <= bound) return 0;
+      known.around = around;
+    }
+    const double distance = (std::min)(known.around, squared_distance(p, f));
+    return distance > bound ? distance : 0;
+  }
+
+  /// The same without the facet; if that is within the bound, some facet's that is.
+  /// \param near where to look from.
+  double squared_distance_from_around(const Point& p, double bound, Cell_handle near) const
+  {
+    const auto& tr = mesh_->triangulation();
+    thread_local std::vector<Vertex_handle> vertices;
+    thread_local std::vector<const Facet*> star;
+    double nearest = HUGE_VAL;
+    const auto look = [&](Vertex_handle v) {
+      star.clear();
+      list_star(v, star);
+      for (const Facet* g : star) nearest = (std::min)(nearest, squared_distance(p, *g));
+      return nearest <= bound;
+    };
+    const Cell_handle c = tr.locate(p, near);
+    const auto squared = [&](int i) { return CGAL::to_double(CGAL::squared_distance(p, c->vertex(i)->point())); };
+    int first = 0;
+    for (int i = 1; i < 4; ++i)
+      if (squared(i) < squared(first)) first = i;
+    for (int i = 0; i < 4; ++i)
+      if (look(c->vertex((first + i) & 3))) return nearest;
+    const Vertex_handle v = tr.nearest_vertex(p, c);
+    if (!c->has_vertex(v) && look(v)) return nearest;
+    vertices.clear();
+    tr.finite_adjacent_vertices(v, std::back_inserter(vertices));
+    for (const Vertex_handle w : vertices)
+      if (!c->has_vertex(w) && look(w)) return nearest;
+    return nearest;
+  }
+
+  /// Barycentric coordinates. Fewer samples let smoothing raise the distance unseen.
+  static constexpr double samples[][2] = {
+      {1. / 3, 1. / 3}, {.6, .2},   {.2, .6},   {.2, .2},   {.44, .12},   {.12, .44},  {.44, .44}, {0.5, 0},
+      {0.3, 0},         {0.7, 0},   {0.12, 0},  {0.88, 0},  {0, 0.5},     {0, 0.3},    {0, 0.7},   {0, 0.12},
+      {0, 0.88},        {0.5, 0.5}, {0.3, 0.7}, {0.7, 0.3}, {0.12, 0.88}, {0.88, 0.12}};
+
+  static constexpr double along_ridges[] = {1. / 6, 1. / 3, 1. / 2, 2. / 3, 5. / 6};
+
+  const Restricted* mesh_;
+  mutable std::vector<Near_point> known_{1 << 13}; ///< by a hash of the point
+};
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_CRITERIA_DEVIATION_3_H

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// All elements of a restricted Delaunay triangulation that violate its criteria: what reports count, what creases are
+// blamed for, and where refinement starts again.
+
+#ifndef WEFT_SPATIAL_CRITERIA_BAD_ELEMENTS_3_H
+#define WEFT_SPATIAL_CRITERIA_BAD_ELEMENTS_3_H
+
+#include <weft/spatial/criteria/Badness_measure_3.h>
+#include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/restricted/topological_disk_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+namespace weft::internal {
+
+/// A ball in space.
+template <class K>
+struct Ball_3
+{
+  typename K::Point_3 center;
+  double squared_radius;
+};
+
+/// Calls `on_edge(crease edge, badness, ball)`, `on_facet(facet, badness, ball)` and `on_cell(cell, badness, ball)` for
+/// each bad element with its Delaunay ball, that of the surface or crease for the former two, and `on_vertex(vertex)`
+/// for each boundary vertex without a topological disk. Linear.
+template <class Restricted, class On_edge, class On_facet, class On_cell, class On_vertex>
+void visit_bad_elements(const Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria,
+                        const On_edge& on_edge, const On_facet& on_facet, const On_cell& on_cell,
+                        const On_vertex& on_vertex)
+{
+  using Ball = Ball_3<typename Restricted::Kernel>;
+  const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+  for (const auto& e : mesh.creases().edges()) {
+    const Badness_3 badness = measure.crease_edge(e);
+    if (badness.is_bad()) on_edge(e, badness, Ball{e.steiner, e.squared_radius});
+  }
+  for (const auto& f : mesh.facets()) {
+    if (f.cell == typename Restricted::Cell_handle()) continue;
+    const Badness_3 badness = measure.facet(f);
+    if (badness.is_bad()) on_facet(f, badness, Ball{f.steiner, f.squared_radius});
+  }
+  for (const auto c : mesh.triangulation().finite_cell_handles()) {
+    if (c->subdomain() == 0) continue;
+    const Badness_3 badness = measure.cell(c);
+    if (!badness.is_bad()) continue;
+    const auto& center = c->circumcenter();
+    on_cell(c, badness, Ball{center, CGAL::to_double(CGAL::squared_distance(center, c->vertex(0)->point()))});
+  }
+  for (const auto v : mesh.vertices())
+    if (v->location().dimension <= 2 && !has_topological_disk(mesh, v)) on_vertex(v);
+}
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_CRITERIA_BAD_ELEMENTS_3_H

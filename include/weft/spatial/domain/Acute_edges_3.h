@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where two parts of a surface meet at an acute angle. Beside such an edge they are nearer to each other than any
+// triangle between them is large, so Delaunay refinement finds bad facets and cells at every scale (Tournois 2009,
+// sec. 4.2.1.1): there it has to give up at some size, and to say so.
+
+#ifndef WEFT_SPATIAL_DOMAIN_ACUTE_EDGES_3_H
+#define WEFT_SPATIAL_DOMAIN_ACUTE_EDGES_3_H
+
+#include <weft/internal/boxes/Box_hierarchy_3.h>
+#include <weft/internal/boxes/coordinates_3.h>
+#include <weft/internal/boxes/nearest_point_3.h>
+#include <weft/spatial/mesh/dihedral_angles_3.h>
+#include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace weft::internal {
+
+/// The edges of a surface with an acute dihedral angle inside or outside of the domain, creases or not.
+/// \tparam K a CGAL kernel.
+template <class K>
+class Acute_edges_3
+{
+public:
+  using Point = typename K::Point_3;
+
+  Acute_edges_3() = default;
+
+  /// O(n log n) for n triangles.
+  /// \param largest_angle dihedral angles below it are acute, in degrees.
+  Acute_edges_3(const Piecewise_smooth_complex_3<K>& complex, double largest_angle)
+  {
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> triangle_of_side;
+    std::vector<Box_3> boxes;
+    for (std::size_t t = 0; t < complex.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const std::size_t a = complex.triangles[t][i], b = complex.triangles[t][(i + 1) % 3];
+        const auto other = triangle_of_side.find({b, a});
+        if (other == triangle_of_side.end()) {
+          triangle_of_side[{a, b}] = t;
+          continue;
+        }
+        const double angle = smaller_dihedral(complex, t, other->second);
+        if (!(angle < largest_angle * radians_per_degree)) continue;
+        const auto one = away_from(complex, t, a, b), two = away_from(complex, other->second, a, b);
+        edges_.push_back({complex.points[a],
+                          complex.points[b],
+                          unit(minus(one, two)),
+                          {{one[0] + two[0], one[1] + two[1], one[2] + two[2]}},
+                          reach_at(angle)});
+        largest_reach_ = (std::max)(largest_reach_, edges_.back().reach);
+        boxes.emplace_back();
+        for (const std::size_t v : {a, b})
+          boxes.back().add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
+      }
+    boxes_ = Box_hierarchy_3(boxes);
+  }
+
+  bool empty() const { return edges_.empty(); }
+
+  /// Whether a ball lies so near to an acute edge that it meets both sides of it, or nearly so: a simplex whose
+  /// circumscribed ball that is mixes them up.
+  bool is_near(const Point& center, double radius) const
+  {
+    bool found = false;
+    visit_near(center, radius, [&](const Edge&, const Point&, double) { return found = true; });
+    return found;
+  }
+
+  /// The mirror image of `p` in the plane that bisects the acute edge nearest to `center`, if the ball mixes up the
+  /// sides of that edge, with its center on the one and `p` on the other. Returns whether that is so.
+  bool mirror(const Point& p, const Point& center, double radius, Point& image) const
+  {
+    double nearest = HUGE_VAL, height = 0;
+    Xyz_3 normal{};
+    visit_near(center, radius, [&](const Edge& edge, const Point& foot, double distance) {
+      if (!(distance < nearest)) return false; // of equally near ones the first
+      nearest = distance;
+      normal = edge.normal;
+      const Xyz_3 from = difference(center, foot), to = difference(p, foot);
+      height = dot_product(to, normal);
+      if (!(dot_product(from, normal) * height < 0 && dot_product(from, edge.inward) > 0 &&
+            dot_product(to, edge.inward) > 0))
+        height = 0;
+      return false;
+    });
+    if (height == 0) return false;
+    image = Point(p.x() - 2 * height * normal[0], p.y() - 2 * height * normal[1], p.z() - 2 * height * normal[2]);
+    return true;
+  }
+
+  /// Moves `p`, the center of a ball, to the nearest point of an acute edge if that is near: within 0.27 radii of one
+  /// of 60 degrees, the more the acuter, up to 0.8. Returns whether it is. Of the reaches tried this leaves the fewest
+  /// bad elements beside knife edges.
+  bool attract(Point& p, double radius) const
+  {
+    const Point center = p;
+    double nearest = HUGE_VAL;
+    visit_near(center, radius, [&](const Edge& edge, const Point& foot, double distance) {
+      if (!(distance < nearest && distance < (std::min)(0.8, 0.14 * (edge.reach - 1)) * radius)) return false;
+      nearest = distance; // of equally near ones the first
+      p = foot;
+      return false;
+    });
+    return nearest < HUGE_VAL;
+  }
+
+private:
+  struct Edge
+  {
+    Point source, target;
+    Xyz_3 normal; ///< of the plane that bisects its angle
+    Xyz_3 inward; ///< in that plane, away from the edge, between its sides
+    double reach;
+  };
+
+  /// Calls `visit(edge, its nearest point, distance)` for the edges that a ball mixes up the sides of, until it returns
+  /// true.
+  template <class Visit>
+  void visit_near(const Point& center, double radius, const Visit& visit) const
+  {
+    if (edges_.empty()) return;
+    const auto framed = boxes_.frame()(center.x(), center.y(), center.z());
+    const std::array<float, 3> from{
+        {static_cast<float>(framed[0]), static_cast<float>(framed[1]), static_cast<float>(framed[2])}};
+    const double error = (1 + (std::max)({std::abs(from[0]), std::abs(from[1]), std::abs(from[2])})) * 1e-6;
+    const double reach = radius * largest_reach_ * boxes_.frame().scale * (1 + 1e-6) + error;
+    const double largest = std::numeric_limits<float>::max();
+    const auto limit = static_cast<float>((std::min)(largest, reach * reach * (1 + 1e-6)));
+    boxes_.visit_nearest(from, limit, [&](std::uint32_t block, float bound) {
+      for (std::uint32_t i = 4 * block; i < 4 * block + 4; ++i) {
+        const std::uint32_t item = boxes_.items()[i];
+        if (item == Box_hierarchy_3::nothing) break;
+        const Edge& edge = edges_[item];
+        const Point x = nearest_point_on_segment(center, edge.source, edge.target);
+        const double distance = norm(difference(x, center));
+        if (distance <= radius * edge.reach && visit(edge, x, distance)) return -1.f;
+      }
+      return bound;
+    });
+  }
+
+  /// At a distance of d the sides are about d times the angle apart; a ball of half of that can't mix them up.
+  static double reach_at(double angle) { return 1 + 2 / (std::max)(angle, 0.01); }
+
+  static double smaller_dihedral(const Piecewise_smooth_complex_3<K>& complex, std::size_t t, std::size_t u)
+  {
+    const auto m = normal(complex, t), n = normal(complex, u);
+    const double sine = norm(cross_product(m, n)), cosine = dot_product(m, n);
+    return std::atan2(sine, -cosine);
+  }
+
+  /// Unit vector in a triangle away from its side ab.
+  static Xyz_3 away_from(const Piecewise_smooth_complex_3<K>& complex, std::size_t t, std::size_t a, std::size_t b)
+  {
+    const auto along = unit(difference(complex.points[b], complex.points[a]));
+    auto away = Xyz_3{};
+    for (const std::size_t v : complex.triangles[t])
+      if (v != a && v != b) away = difference(complex.points[v], complex.points[a]);
+    const double shift = dot_product(away, along);
+    for (std::size_t i = 0; i < 3; ++i) away[i] -= shift * along[i];
+    return unit(away);
+  }
+
+  static Xyz_3 unit(const Xyz_3& a)
+  {
+    const double length = norm(a);
+    return length > 0 ? Xyz_3{{a[0] / length, a[1] / length, a[2] / length}} : a;
+  }
+
+  static Xyz_3 normal(const Piecewise_smooth_complex_3<K>& complex, std::size_t t)
+  {
+    const auto& v = complex.triangles[t];
+    const auto origin = xyz(complex.points[v[0]]);
+    const auto n = cross_product(minus(xyz(complex.points[v[1]]), origin), minus(xyz(complex.points[v[2]]), origin));
+    return unit(n); // squared again below: tiny surfaces would underflow
+  }
+
+  std::vector<Edge> edges_;
+  double largest_reach_ = 0;
+  Box_hierarchy_3 boxes_;
+};
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_DOMAIN_ACUTE_EDGES_3_H

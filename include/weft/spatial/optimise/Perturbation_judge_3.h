@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a perturbed vertex would do to the mesh: the angles of the cells that it would make, judged by the conflict zone
+// of a place before anything is inserted, and whether the boundary is still a surface and every criterion met after it
+// was (Tournois 2009, sec. 3.2.2, Alg. 7).
+
+#ifndef WEFT_SPATIAL_OPTIMISE_PERTURBATION_JUDGE_3_H
+#define WEFT_SPATIAL_OPTIMISE_PERTURBATION_JUDGE_3_H
+
+#include <weft/spatial/criteria/Criteria_guard_3.h>
+#include <weft/spatial/mesh/circumcenter_3.h>
+#include <weft/spatial/mesh/dihedral_angles_3.h>
+#include <weft/spatial/optimise/Perturb_options_3.h>
+#include <weft/spatial/restricted/Conflict_zone_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace weft::internal {
+
+/// How much of a sliver a cell is: the cosine of its smallest dihedral angle, or what its largest one stands for if
+/// that is more. 152 degrees stand for 24, 140 for 32, 125 for 42.
+inline double sliver_measure(const Dihedral_cosines_3& cosines)
+{
+  return (std::max)(cosines.smallest, 0.428 - 0.55 * cosines.largest);
+}
+
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Perturbation_judge_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+  using Zone = typename Restricted::Zone;
+
+  static constexpr double no_good = 3; ///< more than any sliver measure
+  /// By how much a change has to better what it is to mend: else bettering by ever less goes on forever.
+  static constexpr double least_gain = 1e-4;
+
+  /// \param guard has to live as long as this object.
+  Perturbation_judge_3(const Restricted& mesh, Criteria_guard_3<Restricted>& guard) : mesh_(&mesh), guard_(guard) {}
+
+  static double measure(Cell_handle c) { return sliver_measure(cosines_of_cell(c)); }
+
+  /// No move may make an angle smaller than the one with this cosine.
+  void set_floor(double cosine) { floor_ = cosine; }
+
+  /// \param filling the cells that fill the place of a vertex that was taken away; none for an insertion.
+  void set_filling(const std::vector<Cell_handle>& filling)
+  {
+    filling_.clear();
+    for (const Cell_handle c : filling) {
+      Filler f{c, -1, -1, false, true};
+      if (!Restricted::is_at_box(c)) {
+        c->set_circumcenter(circumcenter_of_cell_3<Kernel>(c));
+        const Dihedral_cosines_3 x = cosines_of_cell(c);
+        f = {c, sliver_measure(x), x.smallest, false, false};
+      }
+      filling_.push_back(f);
+    }
+  }
+
+  /// Finds the zone of a point; `near` is where to look from.
+  bool find_zone(const Point& p, Cell_handle near)
+  {
+    return find_conflict_zone(mesh_->triangulation(), p, near, zone_) == Zone_result::found;
+  }
+  const Zone& zone() const { return zone_; }
+
+  /// The worst measure of the cells that a vertex at the point of `zone()` would make, filling that stays included;
+  /// `no_good` if it isn't less than `limit` or, where that is more, the worst of the cells unmade.
+  double judge(double limit)
+  {
+    ++stamp_;
+    for (const Cell_handle c : zone_.cells) c->set_id(-stamp_);
+    bool limit_is_final = false;
+    double worst = -1;
+    const auto exceeds = [&](const Dihedral_cosines_3& x) {
+      worst = sliver_measure(x);
+      if (x.smallest > floor_) return true;
+      if (worst < limit) return false;
+      if (!limit_is_final)
+        limit = (std::max)(limit, worst_unmade() - least_gain); // seldom needed: candidates mostly fail
+      limit_is_final = true;
+      return worst >= limit;
+    };
+    for (Filler& f : filling_)
+      if (f.cell->id() != -stamp_ && f.measure > worst && is_inside(f) && exceeds(cosines_of_cell(f.cell)))
+        return no_good;
+    for (const auto& facet : zone_.hull) {
+      std::array<Point, 4> p;
+      if (!corners(facet, p)) continue;
+      const Dihedral_cosines_3 x = cosines_of_extreme_dihedrals(p[0], p[1], p[2], p[3]);
+      if (sliver_measure(x) <= worst || !is_inside(circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]))) continue;
+      if (exceeds(x)) return no_good;
+    }
+    return worst;
+  }
+
+  /// The same for leaving the vertex out that was taken away.
+  double judge_filling(double limit)
+  {
+    double worst = -1;
+    for (Filler& f : filling_) {
+      if (f.measure <= worst || !is_inside(f)) continue;
+      worst = f.measure;
+      if (worst >= limit || f.smallest > floor_) return no_good;
+    }
+    return worst;
+  }
+
+  /// Whether the cells that a vertex at the point of `zone()` would make meet the criteria.
+  bool would_fit() const
+  {
+    return std::all_of(zone_.hull.begin(), zone_.hull.end(), [this](const auto& facet) {
+      std::array<Point, 4> p;
+      if (!corners(facet, p)) return true;
+      const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
+      return !guard_.measure().cell({&p[0], &p[1], &p[2], &p[3]}, o).is_bad() || !is_inside(o);
+    });
+  }
+
+  /// Whether what changed last is as good as it was in all that refinement guarantees.
+  bool is_acceptable(Perturb_report_3& report)
+  {
+    switch (guard_.refusal()) {
+    case Refusal_3::none:
+      return true;
+    case Refusal_3::cell:
+      return ++report.refused_cells, false;
+    case Refusal_3::facet:
+      return ++report.refused_facets, false;
+    case Refusal_3::crease:
+      return ++report.refused_creases, false;
+    case Refusal_3::disk:
+      return ++report.refused_disks, false;
+    default:
+      return ++report.refused_bare, false;
+    }
+  }
+
+  /// To be called when a vertex number gets another meaning.
+  void forget(int id) { guard_.forget(id); }
+
+private:
+  /// A cell that fills the place of a vertex taken away.
+  struct Filler
+  {
+    Cell_handle cell;
+    double measure, smallest;
+    bool inside, labelled; ///< the oracle is asked when it matters
+  };
+
+  bool is_inside(const Point& p) const { return mesh_->oracle().subdomain(p) != 0; }
+
+  bool is_inside(Filler& f) const
+  {
+    if (!f.labelled) f.inside = is_inside(f.cell->circumcenter());
+    f.labelled = true;
+    return f.inside;
+  }
+
+  double worst_unmade() const
+  {
+    double worst = -1;
+    for (const Cell_handle c : zone_.cells)
+      if (c->is_classified() && c->subdomain() != 0) worst = (std::max)(worst, measure(c));
+    return worst;
+  }
+
+  /// The cell that the point of the zone would make with a facet of its hull; false for one at the box.
+  bool corners(const typename Restricted::Facet& facet, std::array<Point, 4>& p) const
+  {
+    const auto& [c, i] = facet;
+    for (int k = 0; k < 4; ++k) {
+      if (k != i && c->vertex(k)->location().dimension < 0) return false;
+      p[static_cast<std::size_t>(k)] = k == i ? zone_.point : c->vertex(k)->point();
+    }
+    std::swap(p[static_cast<std::size_t>((i + 1) % 4)], p[static_cast<std::size_t>((i + 2) % 4)]); // on the other side
+    return true;
+  }
+
+  const Restricted* mesh_;
+  Criteria_guard_3<Restricted>& guard_;
+  std::vector<Filler> filling_;
+  Zone zone_;
+  double floor_ = 1;
+  int stamp_ = 1;
+};
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_OPTIMISE_PERTURBATION_JUDGE_3_H

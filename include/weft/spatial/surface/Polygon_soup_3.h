@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// A surface as plain arrays: what the readers return and `piecewise_smooth_complex()` takes.
+
+#ifndef WEFT_SPATIAL_SURFACE_POLYGON_SOUP_3_H
+#define WEFT_SPATIAL_SURFACE_POLYGON_SOUP_3_H
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace weft {
+
+/// Points and polygons that refer to them by position; nothing is promised about how the polygons fit together.
+/// \tparam K a CGAL kernel.
+template <class K>
+struct Polygon_soup_3
+{
+  using Kernel = K;
+  using Point = typename K::Point_3;
+
+  std::vector<Point> points;
+  std::vector<std::vector<std::size_t>> polygons; ///< corners in order, counterclockwise seen from outside
+
+  /// Changes a soup in place and returns what it changed, for people, one line each; see `repair_surface()`.
+  using Repair = std::function<std::vector<std::string>(Polygon_soup_3&)>;
+};
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_SURFACE_POLYGON_SOUP_3_H
