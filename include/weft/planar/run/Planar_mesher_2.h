@@ -257,9 +257,8 @@ private:
     // Relaxation knows sizes only; it would undo what is refined for angles. Polishing follows.
     if (sizes_hold()) return;
     if (!near) return relax_all(options_.move_ratio, options_.quadrature);
-    // Where many edges are just short enough, relaxing far around undoes what polishing achieved: with four rings and 8
-    // sweeps a fractal shore takes 24 batches and 5844 Steiner points, with one ring and 4 sweeps 14 batches and 5430.
-    relax(relaxer_.with_neighbors(fresh),
+    // Where many edges are just short enough, relaxing far around undoes what polishing achieved.
+    relax(optimiser_.with_neighbors(fresh),
           {options_.move_ratio, options_.quadrature, (std::min)(most_local_sweeps, options_.max_sweeps)});
   }
 
