@@ -16,6 +16,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/answers.h>
+#include <weft/internal/Run.h>
 #include <weft/planar/mesh/assemble_mesh_2.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/mesh/Scaled_triangle_2.h>
@@ -92,7 +93,7 @@ public:
   using Mesh = Triangle_mesh_2<K>;
 
   Optimisation_2(const Mesh& mesh, const Improve_options_2& options)
-      : input_(mesh), options_(options), stays_(mesh.points.size(), false), run_(run_options())
+      : input_(mesh), options_(options), stays_(mesh.points.size(), false), run_(options.visitor, options.time_limit)
   {
     for (const std::size_t v : options.fixed_vertices) {
       if (v >= mesh.points.size()) throw Option_error("there is no vertex " + std::to_string(v) + " to be fixed");
@@ -121,13 +122,6 @@ private:
   static constexpr double most_straight = 20; // degrees that chains turn at vertices where nothing is respaced
   // Longest edges against those of equilateral triangles of the same area, and how fast sizes may grow.
   static constexpr double longest_edge = 1.7, growth = 0.6;
-
-  Mesh_options_2& run_options()
-  {
-    run_options_.time_limit = options_.time_limit;
-    run_options_.visitor = options_.visitor;
-    return run_options_;
-  }
 
   /// The vertices that aren't on the outline and may move.
   std::vector<typename K::Point_2> free_vertices() const
@@ -244,8 +238,7 @@ private:
     Improve_report_2& report = result_.report;
     report.moves = report_.moves + report_.polished;
     report.flips = report_.flips;
-    report.stage_seconds = report_.stage_seconds;
-    report.stop_reason = report_.stop_reason;
+    run_.report(report);
     if (!found_) {
       report.notes.emplace_back("nothing better was found: the mesh is as it was");
       result_.mesh = input_;
@@ -268,8 +261,7 @@ private:
   const Mesh& input_;
   const Improve_options_2& options_;
   std::vector<char> stays_; ///< by vertex
-  Mesh_options_2 run_options_;
-  Mesh_run_2 run_;
+  Run run_;
   Mesh_report_2 report_;
   Improve_result_2<K> result_;
   bool found_ = false; ///< whether the result has a mesh

@@ -7,6 +7,7 @@
 #ifndef WEFT_IO_WRITE_GMSH_3_H
 #define WEFT_IO_WRITE_GMSH_3_H
 
+#include <weft/internal/as_index.h>
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
@@ -39,7 +40,7 @@ struct Gmsh_entity_3
   }
   void include(const std::array<double, 3>& p)
   {
-    for (int i = 0; i < 3; ++i) lower[i] = (std::min)(lower[i], p[i]), upper[i] = (std::max)(upper[i], p[i]);
+    for (std::size_t i = 0; i < 3; ++i) lower[i] = (std::min)(lower[i], p[i]), upper[i] = (std::max)(upper[i], p[i]);
   }
 };
 
@@ -52,7 +53,7 @@ void add_gmsh_elements(Gmsh_entities_3& entities, const Tetrahedral_mesh_3<K>& m
                        const Elements& elements, const std::vector<int>& tags, int first)
 {
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    Gmsh_entity_3& entity = entities[dimension][tags[i] + first];
+    Gmsh_entity_3& entity = entities[as_index(dimension)][tags[i] + first];
     entity.elements.push_back(i);
     for (const std::size_t v : elements[i]) entity.include(xyz(mesh.points[v]));
   }
@@ -110,7 +111,7 @@ inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities_3& entitie
       << entities[0].size() << ' ' << entities[1].size() << ' ' << entities[2].size() << ' ' << entities[3].size()
       << '\n';
   for (int dimension = 0; dimension <= 3; ++dimension)
-    for (const auto& [tag, entity] : entities[dimension]) {
+    for (const auto& [tag, entity] : entities[as_index(dimension)]) {
       out << tag << ' ';
       for (const double x : entity.lower) out << x << ' ';
       if (dimension > 0)
@@ -133,7 +134,7 @@ void write_gmsh_nodes(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const
     for (const auto& tag_and_entity : of_dimension) blocks += !tag_and_entity.second.nodes.empty();
   out << "$Nodes\n" << blocks << ' ' << mesh.points.size() << " 1 " << mesh.points.size() << '\n';
   for (int dimension = 0; dimension <= 3; ++dimension)
-    for (const auto& [tag, entity] : entities[dimension]) {
+    for (const auto& [tag, entity] : entities[as_index(dimension)]) {
       if (entity.nodes.empty()) continue;
       out << dimension << ' ' << tag << " 0 " << entity.nodes.size() << '\n';
       for (const std::size_t v : entity.nodes) out << v + 1 << '\n';
@@ -150,7 +151,7 @@ template <class Vertices>
 void write_gmsh_blocks(Text_writer& out, const Gmsh_entities_3& entities, int dimension, int type, std::size_t& number,
                        const Vertices& vertices)
 {
-  for (const auto& [tag, entity] : entities[dimension]) {
+  for (const auto& [tag, entity] : entities[as_index(dimension)]) {
     if (entity.elements.empty()) continue;
     out << dimension << ' ' << tag << ' ' << type << ' ' << entity.elements.size() << '\n';
     for (const std::size_t i : entity.elements) {

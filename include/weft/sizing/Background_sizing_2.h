@@ -122,8 +122,8 @@ private:
     std::uint32_t random = 2463534242u;
     for (;;) {
       random ^= random << 13, random ^= random >> 17, random ^= random << 5;
-      const int first = static_cast<int>(random % 3);
-      int i = first;
+      const std::size_t first = random % 3;
+      std::size_t i = first;
       bool crossed = false;
       do {
         const Index next = mesh_.faces[face].neighbor[i];
@@ -156,7 +156,7 @@ private:
   // minimum.
   double value_at_hull(Index f, const Point& x) const
   {
-    int i = 0;
+    std::size_t i = 0;
     const auto orientation = K().orientation_2_object();
     while (mesh_.faces[f].neighbor[i] != none ||
            orientation(mesh_.point(f, (i + 1) % 3), mesh_.point(f, (i + 2) % 3), x) != CGAL::RIGHT_TURN)
@@ -175,13 +175,13 @@ private:
   }
 
   // The other hull edge at vertex v of hull edge (f, i).
-  void turn(Index& f, int& i, Index v) const
+  void turn(Index& f, std::size_t& i, Index v) const
   {
     // Faces around v: leave through the edge at v that isn't the one we came by, until there is nothing behind it.
-    const auto index_of = [&](Index g, Index w) {
+    const auto index_of = [&](Index g, Index w) -> std::size_t {
       return mesh_.faces[g].vertex[0] == w ? 0 : mesh_.faces[g].vertex[1] == w ? 1 : 2;
     };
-    int j = 3 - i - index_of(f, v); // the third index: opposite edge contains v, too
+    std::size_t j = 3 - i - index_of(f, v); // the third index: opposite edge contains v, too
     while (mesh_.faces[f].neighbor[j] != none) {
       const Index next = mesh_.faces[f].neighbor[j], pivot = mesh_.faces[f].vertex[3 - j - index_of(f, v)];
       f = next;

@@ -8,6 +8,7 @@
 #define WEFT_SIZING_BACKGROUND_TRIANGULATION_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/as_index.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/Unique_hash_map.h>
@@ -62,14 +63,14 @@ struct Background_triangulation_2
     for (auto f = triangulation.finite_faces_begin(); f != triangulation.finite_faces_end(); ++f) {
       Face face;
       for (int i = 0; i < 3; ++i) {
-        face.vertex[i] = vertex_index[f->vertex(i)];
-        face.neighbor[i] = triangulation.is_infinite(f->neighbor(i)) ? none : face_index[f->neighbor(i)];
+        face.vertex[as_index(i)] = vertex_index[f->vertex(i)];
+        face.neighbor[as_index(i)] = triangulation.is_infinite(f->neighbor(i)) ? none : face_index[f->neighbor(i)];
       }
       faces.push_back(face);
     }
   }
 
-  const Point& point(Index f, int i) const { return points[faces[f].vertex[i]]; }
+  const Point& point(Index f, std::size_t i) const { return points[faces[f].vertex[i]]; }
   Vector at(Index v) const { return {CGAL::to_double(points[v].x()), CGAL::to_double(points[v].y())}; }
 
   /// Gradients of the three hat functions of a face. One with parallel sides to rounding has none.
@@ -84,7 +85,7 @@ struct Background_triangulation_2
     const std::array<Vector, 3> p{at(v[0]), at(v[1]), at(v[2])};
     const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
     Shape result{};
-    for (int i = 0; area > 0 && i < 3; ++i) {
+    for (std::size_t i = 0; area > 0 && i < 3; ++i) {
       const Vector &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
       result.hat[i] = {(a.y - b.y) / area, (b.x - a.x) / area};
     }
@@ -95,7 +96,7 @@ struct Background_triangulation_2
   {
     const double base = sizes[faces[f].vertex[0]]; // differences first: less cancels
     Vector g{0, 0};
-    for (int i = 1; i < 3; ++i) {
+    for (std::size_t i = 1; i < 3; ++i) {
       const double h = sizes[faces[f].vertex[i]] - base;
       g.x += h * s.hat[i].x, g.y += h * s.hat[i].y;
     }
@@ -106,7 +107,7 @@ struct Background_triangulation_2
   double rounding(std::size_t f, const Shape& s) const
   {
     double size = 0, steepest = 0;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       size = std::max(size, sizes[faces[f].vertex[i]]);
       steepest = std::max(steepest, std::hypot(s.hat[i].x, s.hat[i].y));
     }

@@ -84,7 +84,7 @@ private:
   template <class Lowered>
   void limit_edges(std::size_t f, double k, const Lowered& lowered)
   {
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       Index low = mesh_.faces[f].vertex[i], high = mesh_.faces[f].vertex[(i + 1) % 3];
       if (mesh_.sizes[low] > mesh_.sizes[high]) std::swap(low, high);
       const double limit =
@@ -94,7 +94,7 @@ private:
   }
 
   // Largest size at vertex i of a face for which its gradient is at most k, the other two being given.
-  double size_from_edge(std::size_t f, int i, const Shape& s, double k) const
+  double size_from_edge(std::size_t f, std::size_t i, const Shape& s, double k) const
   {
     const Vector g = mesh_.slope(f, s), hat = s.hat[i];
     const double per_height = std::hypot(hat.x, hat.y);
@@ -107,13 +107,13 @@ private:
 
   // The same where the steepest descent from vertex i leaves through the opposite edge, so that the sizes there are
   // what causes it; infinity elsewhere.
-  double size_upwind(std::size_t f, int i, double k) const
+  double size_upwind(std::size_t f, std::size_t i, double k) const
   {
     const Shape s = mesh_.shape(f);
     const double size = size_from_edge(f, i, s, k), change = size - mesh_.sizes[mesh_.faces[f].vertex[i]];
     Vector g = mesh_.slope(f, s);
     g.x += change * s.hat[i].x, g.y += change * s.hat[i].y;
-    const auto rises_to = [&](int j) { return g.x * s.hat[j].x + g.y * s.hat[j].y > 0; };
+    const auto rises_to = [&](std::size_t j) { return g.x * s.hat[j].x + g.y * s.hat[j].y > 0; };
     return rises_to((i + 1) % 3) || rises_to((i + 2) % 3) ? std::numeric_limits<double>::infinity() : size;
   }
 
@@ -132,7 +132,7 @@ private:
       if (final[v]) continue;
       final[v] = 1;
       for (const Index f : around[v])
-        for (int i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < 3; ++i) {
           const Index w = mesh_.faces[f].vertex[i],
                       third = mesh_.faces[f].vertex[0] ^ mesh_.faces[f].vertex[1] ^ mesh_.faces[f].vertex[2] ^ v ^ w;
           if (final[w]) continue;
@@ -156,7 +156,7 @@ private:
     if (std::hypot(g.x, g.y) <= k * (1 + 1e-6) + mesh_.rounding(f, s)) return false;
     std::array<double, 3> share;
     Vector change{0, 0};
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       share[i] = std::max(0., g.x * s.hat[i].x + g.y * s.hat[i].y);
       change.x += share[i] * s.hat[i].x, change.y += share[i] * s.hat[i].y;
     }
@@ -166,7 +166,7 @@ private:
     const double root = std::sqrt(std::max(0., gc * gc - cc * excess));
     const double t = excess / (gc + root) < gc / cc ? excess / (gc + root) : gc / cc;
     const double lowest = std::min({mesh_.sizes[v[0]], mesh_.sizes[v[1]], mesh_.sizes[v[2]]});
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const double size = std::max(lowest, mesh_.sizes[v[i]] - t * share[i]);
       if (size < mesh_.sizes[v[i]]) mesh_.sizes[v[i]] = size, lowered(v[i]);
     }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace weft::internal {
 
@@ -62,14 +63,14 @@ struct Scaled_triangle_2
   explicit Scaled_triangle_2(const std::array<Xy_2, 3>& corners) : corner(corners)
   {
     double extent = 0;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const auto &from = corner[(i + 1) % 3], &to = corner[(i + 2) % 3];
       dx[i] = to[0] - from[0];
       dy[i] = to[1] - from[1];
       extent = (std::max)({extent, std::abs(dx[i]), std::abs(dy[i])});
     }
     std::frexp(extent, &exponent);
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       dx[i] = std::ldexp(dx[i], -exponent);
       dy[i] = std::ldexp(dy[i], -exponent);
       length[i] = std::sqrt(dx[i] * dx[i] + dy[i] * dy[i]);
@@ -81,9 +82,9 @@ struct Scaled_triangle_2
   double longest() const { return *std::max_element(length.begin(), length.end()); }
   double shortest() const { return *std::min_element(length.begin(), length.end()); }
   double area() const { return std::ldexp(twice_area, 2 * exponent - 1); }
-  double angle(int i) const
+  double angle(std::size_t i) const
   {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     return degrees(std::atan2(std::abs(twice_area), -(dx[j] * dx[k] + dy[j] * dy[k])));
   }
   double aspect_ratio() const { return length[0] * length[1] * length[2] / (2 * std::abs(twice_area) * shortest()); }

@@ -83,7 +83,7 @@ public:
   void add(const Scaled_triangle_2& triangle)
   {
     double smallest = 180;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const double angle = triangle.angle(i);
       ++quality_.angles[(std::min)(static_cast<std::size_t>(angle), Quality_2::bins - 1)];
       smallest = (std::min)(smallest, angle);
@@ -115,7 +115,7 @@ public:
   }
 
 private:
-  void take(Angle_extreme_2& extreme, const Scaled_triangle_2& t, int i, double angle) const
+  void take(Angle_extreme_2& extreme, const Scaled_triangle_2& t, std::size_t i, double angle) const
   {
     extreme = {angle, quality_.triangles, {t.corner[i], t.corner[(i + 1) % 3], t.corner[(i + 2) % 3]}};
   }

@@ -90,7 +90,7 @@ template <class Point, class Sizing>
 double ideal_triangles(const Scaled_triangle_2& t, const Sizing& sizing)
 {
   double mean = 0;
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const double size = checked_size(sizing, edge_middle<Point>(t.corner[(i + 1) % 3], t.corner[(i + 2) % 3]));
     const double per_unit = std::ldexp(1 / size, t.exponent);
     mean += per_unit * per_unit / 3;

@@ -9,6 +9,7 @@
 #ifndef WEFT_PLANAR_POLISH_POLISHER_2_H
 #define WEFT_PLANAR_POLISH_POLISHER_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/planar/polish/Star_cost_2.h>
 #include <weft/planar/polish/triangle_cost_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -61,7 +62,7 @@ public:
     reset();
     std::size_t moved = 0;
     for (int i = 0; i < most_passes && go_on(); ++i) {
-      // Looking at all triangles again after each pass took a tenth of the time of polishing a fractal shore.
+      // Looking at all triangles again after each pass would take time for nothing.
       const std::size_t n = i == 0 ? pass(bound) : pass(faces_near(std::exchange(hopeful_, {})), bound);
       moved += n;
       if (n == 0) break;
@@ -84,8 +85,8 @@ public:
   bool improve(Vertex_handle v)
   {
     hopeless_.resize(mesh_.vertices().size(), 0);
-    if (v->constraint() == fixed_vertex || hopeless_[v->id()]) return false;
-    hopeless_[v->id()] = 1;
+    if (v->constraint() == fixed_vertex || hopeless_[as_index(v->id())]) return false;
+    hopeless_[as_index(v->id())] = 1;
     const std::uint64_t key = key_of_star(v);
     if (failures_.contains(key)) return false;
     if (search_and_move(v)) {
@@ -133,7 +134,7 @@ public:
   void give_hope(Vertex_handle v)
   {
     hopeless_.resize(mesh_.vertices().size(), 0);
-    if (!std::exchange(hopeless_[v->id()], 0)) return;
+    if (!std::exchange(hopeless_[as_index(v->id())], 0)) return;
     hopeful_.push_back(v);
   }
 
@@ -160,11 +161,11 @@ private:
     for (const auto& [b, i] : worst) {
       const Face_handle f = faces[i];
       std::array<Vertex_handle, 6> around;
-      int n = 0;
+      std::size_t n = 0;
       for (int k = 0; k < 3; ++k) around[n++] = f->vertex(k);
       for (int k = 0; k < 3; ++k)
         if (!f->is_constrained(k)) around[n++] = f->neighbor(k)->vertex(f->neighbor(k)->index(f));
-      for (int k = 0; k < n; ++k) moved += improve(around[k]);
+      for (std::size_t k = 0; k < n; ++k) moved += improve(around[k]);
     }
     return moved;
   }
@@ -227,7 +228,7 @@ private:
 
   Point search_on_constraint(Vertex_handle v, double& lowest) const
   {
-    const auto& chain = mesh_.chains()[v->constraint()];
+    const auto& chain = mesh_.chains()[as_index(v->constraint())];
     const double dx = CGAL::to_double(chain.target->point().x() - chain.source->point().x()),
                  dy = CGAL::to_double(chain.target->point().y() - chain.source->point().y()),
                  l = std::sqrt(dx * dx + dy * dy);

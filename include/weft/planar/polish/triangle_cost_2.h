@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 
 namespace weft::internal {
@@ -54,7 +55,7 @@ inline double triangle_cost_2(double doubled, const std::array<double, 3>& oppos
   // loop into branches that are mispredicted, which costs up to half of the time again.
   const std::array<double, 3> scaled{q2 + r2 - p2, p2 + r2 - q2, p2 + q2 - r2};
   double highest = cot_small * doubled, lowest = cot_large * doubled; // of the smallest and the largest angle
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     if (!given[i]) highest = (std::max)(highest, scaled[i]);
     lowest = (std::min)(lowest, scaled[i]);
   }

@@ -9,6 +9,7 @@
 #define WEFT_PLANAR_WORKING_VERTEX_TARGETS_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/as_index.h>
 #include <weft/planar/working/Size_memory.h>
 #include <weft/sizing/Lipschitz_sizing_2.h>
 #include <weft/sizing/Uniform_sizing.h>
@@ -62,7 +63,7 @@ public:
   }
 
   /// Target remembered for the vertex of that number.
-  double target(int id) const { return sizes_[id]; }
+  double target(int id) const { return sizes_[as_index(id)]; }
 
   /// Numbers vertices anew.
   /// \param old_ids of each vertex its number before, or -1 where it had none.
@@ -74,8 +75,8 @@ public:
     asked_at_.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const int old = old_ids[i];
-      sizes_.push_back(old >= 0 ? old_sizes[old] : target(vertices[i]->point()));
-      asked_at_.push_back(old >= 0 ? old_asked_at[old] : vertices[i]->point());
+      sizes_.push_back(old >= 0 ? old_sizes[as_index(old)] : target(vertices[i]->point()));
+      asked_at_.push_back(old >= 0 ? old_asked_at[as_index(old)] : vertices[i]->point());
     }
   }
 
@@ -95,11 +96,11 @@ public:
   void update(int id, const Point& p)
   {
     if (is_uniform()) return;
-    const double d2 = CGAL::to_double(CGAL::squared_distance(p, asked_at_[id]));
-    double& size = sizes_[id];
+    const double d2 = CGAL::to_double(CGAL::squared_distance(p, asked_at_[as_index(id)]));
+    double& size = sizes_[as_index(id)];
     if (d2 < 0.0025 * size * size) return;
     size = target(p);
-    asked_at_[id] = p;
+    asked_at_[as_index(id)] = p;
   }
 
   /// Makes room to remember the field's answers at so many places.

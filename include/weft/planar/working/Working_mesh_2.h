@@ -11,6 +11,7 @@
 #define WEFT_PLANAR_WORKING_WORKING_MESH_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/as_index.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/triangulation/Relocator_2.h>
@@ -106,7 +107,7 @@ public:
     for (const Vertex_handle v : cdt_.finite_vertex_handles()) {
       if (is_frame(v)) continue;
       const int old = v->id();
-      const bool is_old = 0 <= old && old < static_cast<int>(old_vertices.size()) && old_vertices[old] == v;
+      const bool is_old = 0 <= old && old < static_cast<int>(old_vertices.size()) && old_vertices[as_index(old)] == v;
       v->set_id(static_cast<int>(vertices_.size()));
       vertices_.push_back(v);
       old_ids.push_back(is_old ? old : -1);
@@ -259,7 +260,7 @@ public:
     do {
       if (!cdt_.is_constrained(*edge)) continue;
       const Vertex_handle a = edge->first->vertex(Cdt::ccw(edge->second));
-      if (n < 2) result[n] = a == v ? edge->first->vertex(Cdt::cw(edge->second)) : a;
+      if (n < 2) result[as_index(n)] = a == v ? edge->first->vertex(Cdt::cw(edge->second)) : a;
       ++n;
     } while (++edge != done);
     return n == 2 ? result : std::array<Vertex_handle, 2>();
@@ -280,7 +281,7 @@ private:
   /// Leaves the number of a removed vertex to the next one; returns `removed`.
   bool forget_if(bool removed, int id)
   {
-    if (removed && id >= 0) vertices_[id] = Vertex_handle();
+    if (removed && id >= 0) vertices_[as_index(id)] = Vertex_handle();
     return removed;
   }
 

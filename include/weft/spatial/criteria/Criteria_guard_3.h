@@ -60,7 +60,7 @@ public:
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
     const double rounding = 1e-6 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
     farthest_ = {rounding * rounding, rounding * rounding}; // all that is seen on flat patches
-    // Most facets needn't be measured, once a far one is known: a quarter of the time.
+    // Most facets needn't be measured, once a far one is known.
     for (const int record : all.facets) farthest_.raise_to(deviation_.beyond(farthest_, facet(record)));
     farthest_.depth *= closer * closer;
     farthest_of_crease_ = rounding * rounding;

@@ -163,8 +163,7 @@ public:
 
 private:
   /// When no facet is bad by what its axis meets, or nothing can be done about it, those that are new: their centers
-  /// and the middles of their sides may be far from the surface. On the bear for 0.001 that brings its distance
-  /// from 2.3 bounds to 1.5 with 0.3 % more vertices (CGAL: 2.0).
+  /// and the middles of their sides may be far from the surface.
   void look_again()
   {
     if constexpr (!Restricted::Oracle::labels_first) {
@@ -186,8 +185,8 @@ private:
                         [&](const Point& p) { return mesh_.oracle().is_within(p, bound * bound); });
   }
 
-  /// Facets may be farther from the surface than the approximation bound, which is about Steiner points: with 2 / 1.8 /
-  /// 1.6 / 1.4 the bear's distance is 1.8, 1.7, 1.5, 1.5 bounds, 0.1 to 1 % more vertices for each step.
+  /// Facets may be farther from the surface than the approximation bound, which is about Steiner points. Less takes
+  /// more vertices and brings the surface no nearer.
   static constexpr double deviation_tolerance = 1.6;
 
   Restricted& mesh_;
