@@ -258,7 +258,8 @@ private:
     if (sizes_hold()) return;
     if (!near) return relax_all(options_.move_ratio, options_.quadrature);
     // Where many edges are just short enough, relaxing far around undoes what polishing achieved.
-    relax(optimiser_.with_neighbors(fresh), {options_.move_ratio, options_.quadrature, most_local_sweeps});
+    relax(optimiser_.with_neighbors(fresh),
+          {options_.move_ratio, options_.quadrature, (std::min)(most_local_sweeps, options_.max_sweeps)});
   }
 
   // What the optimiser does, as long as the run may go on.
