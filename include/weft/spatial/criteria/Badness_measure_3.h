@@ -6,6 +6,7 @@
 #ifndef WEFT_SPATIAL_CRITERIA_BADNESS_MEASURE_3_H
 #define WEFT_SPATIAL_CRITERIA_BADNESS_MEASURE_3_H
 
+#include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/restricted/Mesh_triangulation_3.h>
 
@@ -174,18 +175,18 @@ public:
       if (ratio > worst.ratio) worst = {p, ratio, is_vertex};
     };
     mesh_->oracle().visit_salient_points(f.steiner, f.squared_radius, f.patch, [&](const Point& p, bool attracts) {
-      if (attracts && prism.contains(p)) take(p, tip_tolerance, true);
+      if (attracts && prism.contains(p)) take(p, Approximation_multiples::tip, true);
     });
-    const double least = (std::min)(ridge_tolerance, sharp_tolerance) * bound;
-    mesh_->oracle().visit_ridges(f.steiner, f.squared_radius, f.patch,
-                                 [&](const Point& p, const Point& q, bool attracts) {
-                                   if (prism.height(p) < least && prism.height(q) < least)
-                                     return; // it is less in between
-                                   double low = 0, high = 1;
-                                   if (!prism.clip(p, q, low, high)) return;
-                                   for (const double t : {low, high})
-                                     take(p + t * (q - p), attracts ? ridge_tolerance : sharp_tolerance, attracts);
-                                 });
+    const double least = (std::min)(Approximation_multiples::ridge, Approximation_multiples::sharp_edge) * bound;
+    mesh_->oracle().visit_ridges(
+        f.steiner, f.squared_radius, f.patch, [&](const Point& p, const Point& q, bool attracts) {
+          if (prism.height(p) < least && prism.height(q) < least) return; // it is less in between
+          double low = 0, high = 1;
+          if (!prism.clip(p, q, low, high)) return;
+          for (const double t : {low, high})
+            take(p + t * (q - p), attracts ? Approximation_multiples::ridge : Approximation_multiples::sharp_edge,
+                 attracts);
+        });
     return worst;
   }
 
@@ -214,17 +215,6 @@ public:
     return (at.dimension == 1 && at.index == crease) ||
            (at.dimension == 0 && mesh_->incidence().corner_is_on_crease(at.index, crease));
   }
-
-  /// Tips may stick out farther than the approximation bound, which is about Steiner points: with 1 / 1.5 / 2 the
-  /// armadillo takes 20912 / 18729 / 18338 vertices and lies within 1.9 / 2.0 / 2.8 bounds of its surface (CGAL: 20228
-  /// and 3.3).
-  static constexpr double tip_tolerance = 1.5;
-
-  /// The same for points of ridges, between tips, and of sharp edges that aren't creases. With 2.8 / 2.4 / 2.2 for
-  /// ridges, elephant, dino, homer and armadillo lie within 2.4, 2.5, 2.6, 2.3 / 2.3, 2.2, 2.1, 1.7 / 2.1, 1.9, 2.1,
-  /// 1.9 bounds of their surfaces for a thousandth (CGAL: 2.9, 4.0, 2.25, 3.3), the last with 2 % more vertices than
-  /// the first; 2.0 for sharp edges costs the elephant another 5 %.
-  static constexpr double ridge_tolerance = 2.2, sharp_tolerance = 2.5;
 
   /// A ratio for what is bad or not without a measure.
   static constexpr double just_bad = 1.0001;
