@@ -33,8 +33,8 @@ const std::string before_options =
     "may be\nslivers, not Delaunay, or inverted. Tags are kept; edges between tags and those of the file stay edges.\n";
 
 const std::string after_options =
-    "Exit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it stopped\n"
-    "early, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, when the mesh so far is written.\n";
+    "Exit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it "
+    "stopped\nearly, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, when the mesh so far is written.\n";
 
 struct Request : command_line::Files
 {
@@ -58,7 +58,8 @@ void add_options(command_line::Options& options, Request& request)
                  "length of edges nearby (default 0.1)");
   options.number("--min-angle", "DEG", 0, 60, request.min_angle,
                  "smallest angle to work for, 60 to go as far as possible; without it 35, if it can be\nreached");
-  add_outputs(options, request, ".vtu (VTK),\n.mesh (Medit), .msh (Gmsh), .off, or .svg, a picture coloured by quality");
+  add_outputs(options, request,
+              ".vtu (VTK),\n.mesh (Medit), .msh (Gmsh), .off, or .svg, a picture coloured by quality");
   add_report(options, request, "counts, quality before and after, time per stage");
   add_histogram(options, request, "a picture of the distributions of angles before and after");
   add_seed_threads_and_time(options, run);

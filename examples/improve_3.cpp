@@ -35,8 +35,8 @@ const std::string before_options =
     "Delaunay, or\ninverted.\n";
 
 const std::string after_options =
-    "Exit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it stopped\n"
-    "early, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, or the boundary isn't represented "
+    "Exit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it "
+    "stopped\nearly, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, or the boundary isn't represented "
     "as\nasked, when the mesh so far is written.\n";
 
 struct Request : command_line::Files
@@ -98,7 +98,8 @@ std::string what_is_missing(const Request& request, const weft::Improve_report_3
 {
   using command_line::append_to_list;
   std::string text;
-  if (report.inverted_after > 0) append_to_list(text, std::to_string(report.inverted_after) + " cells are still inverted");
+  if (report.inverted_after > 0)
+    append_to_list(text, std::to_string(report.inverted_after) + " cells are still inverted");
   if (report.unrepresented > 0)
     append_to_list(text, std::to_string(report.unrepresented) +
                              " elements of the boundary don't represent that of the input as asked");

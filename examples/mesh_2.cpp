@@ -62,7 +62,8 @@ void add_options(command_line::Options& options, Request& request)
   options.positive("--min-size", "S", sizes.min_size, "smallest edge length that --lfs asks for");
   options.positive("--min-angle", "DEG", request.options.min_angle,
                    "smallest angle to refine for, up to 40 degrees, where the input allows it");
-  add_outputs(options, request, ".vtu (VTK),\n.mesh (Medit), .msh (Gmsh), .off, or .svg, a picture coloured by quality");
+  add_outputs(options, request,
+              ".vtu (VTK),\n.mesh (Medit), .msh (Gmsh), .off, or .svg, a picture coloured by quality");
   options.filename("--voronoi", ".svg", request.voronoi, "a picture of the bounded Voronoi diagram of the mesh");
   add_histogram(options, request,
                 "the angles of the mesh beside those of a mesh of the same sizes by CGAL's\nDelaunay refinement, which "

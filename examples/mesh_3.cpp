@@ -82,7 +82,8 @@ void add_options(command_line::Options& options, Request& request)
                  "can be reached");
   options.flag("--no-optimise", request.no_optimise, "neither coarsening nor smoothing after refinement");
   options.flag("--no-perturb", request.no_perturb, "no perturbation of slivers");
-  options.flag("--repair", request.repair, "try to repair an input that isn't a closed surface, instead of refusing it");
+  options.flag("--repair", request.repair,
+               "try to repair an input that isn't a closed surface, instead of refusing it");
   add_outputs(options, request, ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), or of the boundary alone .off or .stl");
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   add_histogram(options, request, "a picture of the distribution of dihedral angles");
