@@ -34,7 +34,8 @@ const std::string before_options =
 
 const std::string after_options =
     "Exit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it "
-    "stopped\nearly, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, when the mesh so far is written.\n";
+    "stopped\nearly, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, when the mesh so far is "
+    "written.\n";
 
 struct Request : command_line::Files
 {
