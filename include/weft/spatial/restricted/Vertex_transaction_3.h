@@ -205,8 +205,8 @@ public:
     Zone zone; // always found: the point was there before
     if (state_ == State::left_out) {
       const bool is_classified = mesh_.new_cells_.empty(); // or the oracle threw
-      find_conflict_zone(mesh_.triangulation(), origin_,
-                         is_classified ? mesh_.new_cells().front() : filling_.front(), zone);
+      find_conflict_zone(mesh_.triangulation(), origin_, is_classified ? mesh_.new_cells().front() : filling_.front(),
+                         zone);
       if (!is_classified) drop_cells(zone, mesh_.new_cells_);
       insert(zone);
     } else {
