@@ -8,6 +8,7 @@
 #ifndef WEFT_IO_MEDIT_3_H
 #define WEFT_IO_MEDIT_3_H
 
+#include <weft/internal/cold.h>
 #include <weft/internal/coordinates_3.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/spatial/Tetrahedral_mesh_3.h>
@@ -22,7 +23,7 @@ namespace internal {
 
 /// A section of elements, each a list of vertices and its reference.
 template <std::size_t N>
-void write_medit_section(Text_writer& out, const char* name, const std::vector<std::array<std::size_t, N>>& elements,
+WEFT_COLD void write_medit_section(Text_writer& out, const char* name, const std::vector<std::array<std::size_t, N>>& elements,
                          const std::vector<int>& tags, int first)
 {
   out << '\n' << name << '\n' << elements.size() << '\n';
@@ -33,7 +34,7 @@ void write_medit_section(Text_writer& out, const char* name, const std::vector<s
 }
 
 /// A section that is a list of numbers counted from 1; left out when there are none.
-inline void write_medit_list(Text_writer& out, const char* name, const std::vector<std::size_t>& numbers)
+WEFT_COLD inline void write_medit_list(Text_writer& out, const char* name, const std::vector<std::size_t>& numbers)
 {
   if (numbers.empty()) return;
   out << '\n' << name << '\n' << numbers.size() << '\n';
@@ -49,7 +50,7 @@ namespace IO {
 /// are counterclockwise seen from outside, cells positively oriented. All coordinates can be read back exactly.
 /// \throws File_error if the file can't be written.
 template <class K>
-void write_medit(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_medit(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
 {
   internal::Text_writer out(filename);
   out << "MeshVersionFormatted 2\nDimension 3\n\nVertices\n" << mesh.points.size() << '\n';
