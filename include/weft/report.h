@@ -5,6 +5,7 @@
 #ifndef WEFT_REPORT_H
 #define WEFT_REPORT_H
 
+#include <weft/internal/cold.h>
 #include <weft/internal/counted.h>
 
 #include <cstddef>
@@ -77,7 +78,7 @@ struct Mesh_report_2
 };
 
 /// Several lines for a person.
-inline std::ostream& operator<<(std::ostream& out, const Mesh_report_2& r)
+WEFT_COLD inline std::ostream& operator<<(std::ostream& out, const Mesh_report_2& r)
 {
   using internal::counted;
   out << counted(r.vertices, "vertex (", "vertices (") << r.input_vertices << " given, " << r.constraint_steiner
@@ -154,7 +155,7 @@ struct Mesh_report_3
 };
 
 /// Several lines for a person.
-inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
+WEFT_COLD inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
 {
   using internal::counted;
   const auto unsatisfied = [&out](const Unsatisfied_3& u, const char* what) {

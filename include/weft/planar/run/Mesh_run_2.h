@@ -6,6 +6,7 @@
 #ifndef WEFT_PLANAR_RUN_MESH_RUN_2_H
 #define WEFT_PLANAR_RUN_MESH_RUN_2_H
 
+#include <weft/internal/cold.h>
 #include <weft/internal/timer.h>
 #include <weft/options.h>
 #include <weft/report.h>
@@ -27,13 +28,7 @@ public:
     stage_ = stage;
     const double start = timer_.seconds();
     if (!stopped_) function();
-    const double seconds = timer_.seconds() - start;
-    for (auto& [n, s] : report.stage_seconds)
-      if (n == name(stage)) {
-        s += seconds;
-        return;
-      }
-    report.stage_seconds.emplace_back(name(stage), seconds);
+    add_seconds(stage, start, report);
   }
 
   /// Whether to go on, by the clock and the visitor; notes why not.
@@ -58,6 +53,17 @@ public:
   bool is_stopped() const { return stopped_; }
 
 private:
+  WEFT_COLD void add_seconds(Stage stage, double start, Mesh_report_2& report) const
+  {
+    const double seconds = timer_.seconds() - start;
+    for (auto& [n, s] : report.stage_seconds)
+      if (n == name(stage)) {
+        s += seconds;
+        return;
+      }
+    report.stage_seconds.emplace_back(name(stage), seconds);
+  }
+
   const Mesh_options_2& options_;
   Timer timer_;
   Stage stage_ = Stage::constraints;
