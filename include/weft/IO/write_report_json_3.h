@@ -84,7 +84,7 @@ inline Json to_json(const Angle_extreme_3& angle, const char* element)
 inline Json to_json(const Quality_3& q)
 {
   Json below = Json::object();
-  for (const std::size_t degrees : {5, 10, 15, 20}) below[std::to_string(degrees)] = q.cells_below(degrees);
+  for (const std::size_t degrees : {5u, 10u, 15u, 20u}) below[std::to_string(degrees)] = q.cells_below(degrees);
   return {{"cells", q.cells},
           {"vertices", q.vertices},
           {"facets", q.facets},
