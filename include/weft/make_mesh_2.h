@@ -34,7 +34,7 @@ namespace weft {
 /// have running ids. On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
 ///
 /// Time is about linear in the number of vertices; the result depends on nothing but the arguments, not on threads.
-/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Triangulation_2.h. Neither
+/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Mesh_triangulation_2.h. Neither
 ///         `Triangulation_hierarchy_2` nor `Constrained_triangulation_plus_2`, whose layers the mesher doesn't keep.
 /// \param sizing callable, point -> largest edge length in the input's units; or a number, which holds everywhere.
 /// \throws Option_error for options out of range, and when the sizing field returns anything but positive numbers.

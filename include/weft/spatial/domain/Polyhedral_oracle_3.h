@@ -208,7 +208,7 @@ private:
     std::vector<Triangle> all;
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
       Triangle triangle;
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         triangle.vertices[i] = static_cast<std::uint32_t>(complex_.triangles[t][i]);
         triangle.points[i] = complex_.points[triangle.vertices[i]];
       }

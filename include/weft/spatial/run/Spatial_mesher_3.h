@@ -12,7 +12,7 @@
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
-#include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/mesh/check_manifold_3.h>
 #include <weft/spatial/optimise/coarsen_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>

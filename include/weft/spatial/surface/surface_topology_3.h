@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -32,7 +33,7 @@ struct Surface_side_3
 {
   std::size_t low, high; ///< its two vertices, the smaller index first
   std::size_t triangle;
-  int side;
+  std::size_t side;
   bool forward; ///< runs from low to high
 };
 
@@ -42,7 +43,7 @@ inline std::vector<Surface_side_3> sorted_sides(const std::vector<std::array<std
   std::vector<Surface_side_3> sides;
   sides.reserve(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
       sides.push_back({std::min(from, to), std::max(from, to), t, i, from < to});
     }
@@ -62,6 +63,23 @@ void for_each_edge(const std::vector<Surface_side_3>& sides, const Visit& visit)
     visit(first, last);
     first = last;
   }
+}
+
+/// Calls `visit(triangle, other, from, to)` where a side of a triangle runs from one vertex to another, and one of a
+/// triangle before it the other way; of several such the last. In the order of the triangles and their sides.
+template <class Visit>
+void visit_opposite_sides(const std::vector<std::array<std::size_t, 3>>& triangles, const Visit& visit)
+{
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> triangle_of_side;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
+      const auto other = triangle_of_side.find({to, from});
+      if (other == triangle_of_side.end())
+        triangle_of_side[{from, to}] = t;
+      else
+        visit(t, other->second, from, to);
+    }
 }
 
 /// What lies across a side of a triangle.
@@ -100,7 +118,7 @@ std::pair<std::vector<int>, int> surface_components(const Surface_neighbours_3& 
     while (!pending.empty()) {
       const std::size_t t = pending.back();
       pending.pop_back();
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t next = neighbours[t][i].triangle;
         if (component[next] >= 0 || !connects(t, i)) continue;
         component[next] = count;
