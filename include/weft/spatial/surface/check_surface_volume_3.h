@@ -53,7 +53,7 @@ template <class K>
 Surface_triangle_3<K> hierarchy_triangle(const Triangle_surface_3<K>& surface, std::size_t triangle)
 {
   Surface_triangle_3<K> result;
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t v = surface.triangles[triangle][i];
     result.points[i] = surface.points[v];
     result.vertices[i] = static_cast<std::uint32_t>(v);
@@ -68,8 +68,8 @@ template <class K>
 bool are_folded(const Triangle_surface_3<K>& surface, const Surface_side_3& a, const Surface_side_3& b)
 {
   const auto &p = surface.points[a.low], &q = surface.points[a.high],
-             &r = surface.points[surface.triangles[a.triangle][(a.side + 2) % 3]],
-             &s = surface.points[surface.triangles[b.triangle][(b.side + 2) % 3]];
+             &r = surface.points[surface.triangles[a.triangle][static_cast<std::size_t>((a.side + 2) % 3)]],
+             &s = surface.points[surface.triangles[b.triangle][static_cast<std::size_t>((b.side + 2) % 3)]];
   return K().orientation_3_object()(p, q, r, s) == CGAL::COPLANAR &&
          K().coplanar_orientation_3_object()(p, q, r, s) == CGAL::POSITIVE;
 }
@@ -134,9 +134,9 @@ CGAL::MP_Float exact_volume(const Triangle_surface_3<K>& surface, std::size_t tr
 {
   using Exact = CGAL::MP_Float;
   std::array<std::array<Exact, 3>, 3> v;
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const Xyz_3 corner = xyz(surface.points[surface.triangles[triangle][i]]);
-    for (int k = 0; k < 3; ++k) v[i][k] = Exact(corner[k]) - Exact(seen_from[k]);
+    for (std::size_t k = 0; k < 3; ++k) v[i][k] = Exact(corner[k]) - Exact(seen_from[k]);
   }
   const auto& [a, b, c] = v;
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
@@ -152,7 +152,7 @@ bool looks_outwards(const Triangle_surface_3<K>& surface, const std::vector<std:
   for (const std::size_t t : shell) {
     std::array<Xyz_3, 3> v;
     std::array<double, 3> largest;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       v[i] = minus(xyz(surface.points[surface.triangles[t][i]]), origin);
       largest[i] = std::max({std::abs(v[i][0]), std::abs(v[i][1]), std::abs(v[i][2])});
     }
