@@ -23,7 +23,7 @@ public:
   std::shared_ptr<const Result> mesh(const Bounds& bounds, const weft::Mesh_options_3& options) const override
   {
     const auto result = weft::make_mesh_3(oracle_, criteria(bounds), options);
-    return make_result(weft::tetrahedral_mesh(result.mesh), result.report);
+    return make_result(weft::tetrahedral_mesh(result.restricted), result.report);
   }
 
 private:

@@ -11,7 +11,7 @@ std::shared_ptr<const Result> mesh_surface(const weft::Piecewise_smooth_complex_
                                            const weft::Mesh_options_3& options)
 {
   const auto result = weft::mesh_surface_3(surface, criteria(bounds), options);
-  return make_result(weft::tetrahedral_mesh(result.mesh), result.report);
+  return make_result(weft::tetrahedral_mesh(result.restricted), result.report);
 }
 
 } // namespace mesh_3_program
