@@ -48,7 +48,7 @@ Mesh make_mesh(const Surface& surface, double size)
   criteria.approximation = 0.05 * size;
   const auto result = weft::make_mesh_3(domain, criteria);
   std::cout << result.report;
-  return weft::tetrahedral_mesh(result.mesh);
+  return weft::tetrahedral_mesh(result.restricted);
 }
 //! [mesh]
 

@@ -80,7 +80,8 @@ private:
 };
 
 /// A change of one vertex that is under way. It is rolled back unless it is committed, also when something is thrown;
-/// nothing else may change the mesh in between.
+/// nothing else may change the mesh in between. Where the oracle throws while a change is rolled back, the vertices are
+/// as they were, and the mesh's `update()` classifies what is left.
 /// \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
 class Vertex_transaction_3

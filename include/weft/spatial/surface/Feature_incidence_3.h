@@ -22,6 +22,9 @@ namespace weft {
 class Feature_incidence_3
 {
 public:
+  /// For domains without feature vertices and creases.
+  Feature_incidence_3() = default;
+
   /// Linear in the size of the complex, but for a factor log(number of sharp edges).
   template <class K>
   explicit Feature_incidence_3(const Piecewise_smooth_complex_3<K>& complex)
@@ -56,7 +59,7 @@ public:
   }
 
   /// For domains that don't tell which patches meet at a crease: any may.
-  /// \param ends of each crease, the feature vertices there; -1 for a closed one.
+  /// \param ends of each crease, the numbers of the feature vertices there; -1 and -1 for a closed one.
   Feature_incidence_3(std::size_t number_of_corners, const std::vector<std::pair<int, int>>& ends)
       : knows_patches_(false), creases_of_corner_(number_of_corners)
   {
