@@ -2,7 +2,8 @@
 #
 # Shows Doxygen pages that are written for GitHub: headings get the identifiers that GitHub gives them, prefixed with
 # the name of the page so that they are unique; links to pages, headings and images of the manual become Doxygen's, links
-# to other files of the repository become text; the numbered list in README.md makes pages subpages of it.
+# to other files of the repository become text; the numbered list in README.md makes pages subpages of it. Each page has
+# its contents after the title, in place of the empty line there.
 #
 #   awk -f filter_markdown.awk PAGE
 
@@ -12,6 +13,8 @@ BEGIN {
   sub(/\.md$/, "", page)
 }
 
+FNR == 1 && /^<!--.*-->$/ { print ""; next } # a page begins with its title
+
 /^```/ { in_code = !in_code; print; next }
 in_code { print; next }
 
@@ -19,6 +22,13 @@ in_code { print; next }
   titled = 1
   print $0 (page == "README" ? "" : " {#" page "}")
   next
+}
+titled && !has_contents {
+  has_contents = 1
+  if ($0 == "") {
+    print "[TOC]"
+    next
+  }
 }
 /^##+ / { print $0 " {#" page "_" slug($0) "}"; next }
 {

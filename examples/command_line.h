@@ -272,8 +272,8 @@ public:
     const auto now = steady_clock::now();
     if (!is_shown_ || now - last_ < milliseconds(80)) return;
     last_ = now;
-    constexpr int width = 28;
-    const int full = static_cast<int>(part_ * width);
+    constexpr std::size_t width = 28;
+    const auto full = static_cast<std::size_t>(part_ * width);
     const std::string line = "[" + std::string(full, '#') + std::string(width - full, '.') + "] " + text;
     std::fprintf(stderr, "\r%.78s\033[K", line.c_str());
     std::fflush(stderr);

@@ -6,10 +6,10 @@
 #include "command_line.h"
 #include "improve_program.h"
 
-#include <weft/IO/read_triangle_mesh.h>
-#include <weft/IO/write_report_json_2.h>
-#include <weft/IO/write_mesh_2.h>
 #include <weft/improve_2.h>
+#include <weft/IO/read_triangle_mesh.h>
+#include <weft/IO/write_mesh_2.h>
+#include <weft/IO/write_report_json_2.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

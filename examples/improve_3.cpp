@@ -7,10 +7,10 @@
 #include "command_line.h"
 #include "improve_program.h"
 
-#include <weft/IO/read_tetrahedral_mesh.h>
-#include <weft/IO/write_report_json_3.h>
-#include <weft/IO/write_mesh_3.h>
 #include <weft/improve_3.h>
+#include <weft/IO/read_tetrahedral_mesh.h>
+#include <weft/IO/write_mesh_3.h>
+#include <weft/IO/write_report_json_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 

@@ -8,13 +8,13 @@
 #include "meshing_progress.h"
 
 #include <weft/IO/read_pslg.h>
-#include <weft/IO/write_report_json_2.h>
 #include <weft/IO/write_mesh_2.h>
+#include <weft/IO/write_report_json_2.h>
 #include <weft/make_mesh_2.h>
-#include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/sizing/Lfs_sizing_2.h>
+#include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
 
 #include <array>
 #include <cmath>

@@ -5,8 +5,8 @@
 
 #include "spatial_fixtures.h"
 
-#include <weft/spatial/mesh/quality_3.h>
 #include <weft/spatial/cgal/to_c3t3.h>
+#include <weft/spatial/mesh/quality_3.h>
 #include <weft/spatial/mesh/validate_3.h>
 
 #include <CGAL/exude_mesh_3.h>

@@ -6,9 +6,9 @@
 
 #include "planar_fixtures.h"
 
+#include <weft/improve_2.h>
 #include <weft/IO/read_triangle_mesh.h>
 #include <weft/IO/write_mesh_2.h>
-#include <weft/improve_2.h>
 #include <weft/planar/mesh/from_triangulation_2.h>
 
 #include <catch2/catch.hpp>

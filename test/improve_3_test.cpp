@@ -5,12 +5,12 @@
 
 #include "spatial_fixtures.h"
 
+#include <weft/improve_3.h>
 #include <weft/IO/read_tetrahedral_mesh.h>
 #include <weft/IO/write_mesh_3.h>
-#include <weft/improve_3.h>
 #include <weft/spatial/mesh/assemble_mesh_3.h>
-#include <weft/spatial/surface/merge_surfaces_3.h>
 #include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/surface/merge_surfaces_3.h>
 
 #include <catch2/catch.hpp>
 

@@ -5,11 +5,11 @@
 
 #include "planar_fixtures.h"
 
-#include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
 #include <weft/planar/relax/Lloyd_2.h>
 #include <weft/planar/relax/quadrature_2.h>
-#include <weft/planar/working/Working_mesh_2.h>
+#include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
 #include <weft/planar/triangulation/Relocator_2.h>
+#include <weft/planar/working/Working_mesh_2.h>
 #include <weft/sizing/Uniform_sizing.h>
 
 namespace {
@@ -272,7 +272,8 @@ TEST_CASE("the quadrature over a triangle is exact for quadratic moments and con
     CHECK(one.mass == Approx(0.5));
     CHECK(one.x == Approx(1 / 6.));
     CHECK(one.y == Approx(1 / 6.));
-    const auto linear = weft::internal::integrate_triangle(a, b, c, parts, [](double x, double y) { return 1 + 2 * x - 3 * y; });
+    const auto linear =
+        weft::internal::integrate_triangle(a, b, c, parts, [](double x, double y) { return 1 + 2 * x - 3 * y; });
     CHECK(linear.mass == Approx(0.5 + 2 / 6. - 3 / 6.));
     CHECK(linear.x == Approx(1 / 6. + 2 * monomial_integral(2, 0) - 3 * monomial_integral(1, 1)));
     CHECK(linear.y == Approx(1 / 6. + 2 * monomial_integral(1, 1) - 3 * monomial_integral(0, 2)).margin(1e-12));

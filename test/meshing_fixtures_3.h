@@ -10,10 +10,10 @@
 
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/criteria/check_criteria_3.h>
-#include <weft/spatial/restricted/check_restricted_3.h>
-#include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/mesh/hausdorff_3.h>
 #include <weft/spatial/mesh/validate_3.h>
+#include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
 

@@ -7,11 +7,11 @@
 
 #include "planar_graphs.h"
 
+#include <weft/planar/check/validate_2.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
-#include <weft/planar/check/validate_2.h>
 
 #include <catch2/catch.hpp>
 

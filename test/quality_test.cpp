@@ -3,8 +3,8 @@
 // Properties of the quality measures: they agree with plain formulas in longer arithmetic, don't depend on where the
 // mesh lies or how large it is, and reports of them are valid JSON whatever they contain.
 
-#include <weft/IO/write_report_json_2.h>
 #include <weft/IO/write_angle_histogram_svg.h>
+#include <weft/IO/write_report_json_2.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/sizing/Uniform_sizing.h>

@@ -2,9 +2,9 @@
 //
 // Properties of the planar sizing fields. The local feature size is judged by its definition: all pairs of features.
 
+#include <weft/planar/sizing/Lfs_sizing_2.h>
 #include <weft/sizing/Background_sizing_2.h>
 #include <weft/sizing/Cached_sizing_2.h>
-#include <weft/planar/sizing/Lfs_sizing_2.h>
 #include <weft/sizing/Lipschitz_sizing_2.h>
 #include <weft/sizing/Uniform_sizing.h>
 

@@ -8,10 +8,10 @@
 #include <weft/errors.h>
 #include <weft/IO/write_gmsh_2.h>
 #include <weft/IO/write_medit_2.h>
+#include <weft/IO/write_mesh_3.h>
 #include <weft/IO/write_off_2.h>
 #include <weft/IO/write_report_json_3.h>
 #include <weft/IO/write_vtu_2.h>
-#include <weft/IO/write_mesh_3.h>
 #include <weft/spatial/criteria/check_criteria_3.h>
 #include <weft/spatial/mesh/hausdorff_3.h>
 #include <weft/spatial/mesh/quality_3.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The concept of a spatial domain, as a class with just what it asks for. Part of the manual, not of the library; the
-// test archetypes_test makes meshes with it, so that nothing the mesher calls can be missing here.
+// The concept of a spatial domain, as a class with just the members it requires. Part of the manual, not of the
+// library. The test archetypes_test makes meshes with it, so nothing that the mesher calls can be missing here.
 
 #ifndef WEFT_DOC_DOMAIN_ORACLE_3_H
 #define WEFT_DOC_DOMAIN_ORACLE_3_H
 
-#include <weft/spatial/surface/Feature_incidence_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
+#include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -15,32 +15,36 @@
 #include <vector>
 
 /// \defgroup concept_classes Concepts
-/// What weft asks of types that you can replace; see \ref concepts "their page".
+/// Members that types of your own need to take the place of weft's; see \ref concepts "their page".
 
-/// The concepts as classes, which tests mesh with. Not part of the library.
+/// The concepts as classes, with which tests make meshes. Not part of the library.
 namespace concepts {
 
-/// What a spatial mesher asks about a domain. All functions are const and give the same answer each time. A domain that
-/// knows nothing of folds inherits weft::No_folds_3; one that knows the subdomain of every point inherits
-/// weft::Domain_by_labels_3, which does nearly everything.
+/// The questions of a spatial mesher about a domain. All functions are const and give the same answer each time. A
+/// domain without folds inherits weft::No_folds_3. One that knows the subdomain of every point inherits
+/// weft::Domain_by_labels_3, which has nearly all members.
+///
+/// examples/custom_oracle.h is an oracle with all of it.
 ///
 /// Models: weft::Polyhedral_oracle_3, weft::Implicit_oracle_3, weft::Labelled_oracle_3, weft::Mesh_domain_oracle_3.
-/// \tparam Model what this archetype passes everything on to; no part of the concept.
+/// \tparam Model what this archetype passes everything on to, and `is_asked_labels_first` which of the two kinds of
+///   oracles it is; no part of the concept.
 /// \ingroup concept_classes
-template <class Model>
+template <class Model, bool is_asked_labels_first = false>
 class DomainOracle_3
 {
 public:
   /// A CGAL kernel with exact predicates whose coordinates are doubles.
   using Kernel = typename Model::Kernel;
   using Point = typename Kernel::Point_3;
+  /// A point of the boundary and its patch: `point`, of type Point, and `patch`, an int.
   using Surface_hit = weft::Surface_hit_3<Kernel>;
 
   /// Whether several threads may ask at once; else the mesher asks from one.
   static constexpr bool is_thread_safe = true;
   /// Whether locating points is cheaper than finding out from segments where the boundary lies between them. If so
-  /// there must be `intersect(p, q, at_p, at_q, hits)`, too, which gets the subdomains of the ends.
-  static constexpr bool labels_first = false;
+  /// there must be the `intersect()` below, too, which gets the subdomains of the ends.
+  static constexpr bool labels_first = is_asked_labels_first;
 
   explicit DomainOracle_3(const Model& model) : model_(model) {}
 
@@ -61,13 +65,20 @@ public:
     return model_.intersect(p, q, hits);
   }
 
+  /// The same for ends whose subdomains are known, `at_p` and `at_q`. Only oracles with `labels_first` need it.
+  int intersect(const Point& p, const Point& q, [[maybe_unused]] int at_p, [[maybe_unused]] int at_q,
+                std::vector<Surface_hit>& hits) const
+  {
+    return model_.intersect(p, q, hits);
+  }
+
   /// Nearest point of the boundary; patch -1 if none was found.
   Surface_hit closest(const Point& p) const { return model_.closest(p); }
 
-  /// Whether the boundary comes as near to p as that.
+  /// Whether the boundary has a point within that squared distance from p.
   bool is_within(const Point& p, double squared_distance) const { return model_.is_within(p, squared_distance); }
 
-  /// Whether the boundary surely keeps that distance from p.
+  /// Whether the boundary keeps that distance from p; false if that isn't known.
   bool is_clear(const Point& p, double radius) const { return model_.is_clear(p, radius); }
   /// @}
 
@@ -77,7 +88,7 @@ public:
 
   int number_of_patches() const { return model_.number_of_patches(); }
 
-  /// Whether a mesh that lacks the patch lacks something.
+  /// Whether a mesh has to have a facet on the patch.
   bool is_expected(int patch) const { return model_.is_expected(patch); }
 
   /// Nearest point of a patch; patch -1 if none was found.
@@ -103,7 +114,9 @@ public:
   /// Nearest point of a crease.
   Point project_on_crease(const Point& p, int crease) const { return model_.project_on_crease(p, crease); }
 
-  /// Which creases and patches meet.
+  /// Which creases and patches meet. `weft::Feature_incidence_3()` for a domain without corners and creases;
+  /// `weft::Feature_incidence_3(corners, ends)` for one with that many corners, where `ends` has, for each crease, the
+  /// numbers of the corners at its ends as a std::pair<int, int>, -1 and -1 for a closed one.
   weft::Feature_incidence_3 incidence() const { return model_.incidence(); }
   /// @}
 
@@ -111,7 +124,8 @@ public:
   /// Where the boundary bends without a crease. weft::No_folds_3 has these for domains without.
   /// @{
 
-  /// Moves a point of a patch to where the boundary bends most within reach; whether there is such a place.
+  /// Moves a point of a patch to the place within reach where the boundary bends most.
+  /// \returns whether there is such a place.
   bool attract(Point& p, double vertex_reach, double fold_reach, int patch) const
   {
     return model_.attract(p, vertex_reach, fold_reach, patch);
@@ -132,7 +146,7 @@ public:
     model_.visit_ridges(center, squared_radius, patch, visit);
   }
 
-  /// Whether a ball mixes up the two sides of an edge of the boundary with an acute dihedral angle.
+  /// Whether a ball reaches both sides of an edge of the boundary with an acute dihedral angle.
   bool is_at_acute_edge(const Point& center, double radius) const { return model_.is_at_acute_edge(center, radius); }
 
   /// The mirror image of p on the other side of such an edge; whether there is one.
@@ -141,7 +155,8 @@ public:
     return model_.mirror_at_acute_edge(p, center, radius, image);
   }
 
-  /// Moves the center of a ball to the nearest point of such an edge; whether that is near.
+  /// Moves the center of a ball to the nearest point of such an edge if that is near.
+  /// \returns whether it is.
   bool attract_to_acute_edge(Point& p, double radius) const { return model_.attract_to_acute_edge(p, radius); }
   /// @}
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The concepts of things that are called: sizing fields, demands and visitors, as classes with just what is asked for.
-// Part of the manual, not of the library; archetypes_test makes meshes with them.
+// The concepts of functions: sizing fields, demands and visitors, as classes with just the members they require. Part
+// of the manual, not of the library; archetypes_test makes meshes with them.
 
 #ifndef WEFT_DOC_SIZING_FIELD_H
 #define WEFT_DOC_SIZING_FIELD_H
@@ -20,8 +20,8 @@ namespace concepts {
 /// weft::Length_field_3, is called for middles of edges, and stands for any length that may depend on the place, such
 /// as Criteria_3::approximation.
 ///
-/// Models: weft::Uniform_sizing, weft::Lfs_sizing_2, weft::Lipschitz_sizing_2, weft::Background_sizing_2,
-/// weft::Cached_sizing_2.
+/// Models: weft::Uniform_sizing, and in the plane weft::Lfs_sizing_2, weft::Lipschitz_sizing_2,
+/// weft::Background_sizing_2 and weft::Cached_sizing_2.
 /// \tparam Point of the kernel of the mesh.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
 /// \ingroup concept_classes
@@ -42,7 +42,13 @@ private:
 };
 
 /// A demand on boundary facets, for Criteria_3::facet_demand, or on cells, for Criteria_3::cell_demand. Copied; called
-/// by one thread, often for the same element.
+/// by one thread, often for the same element. examples/custom_criterion.h is one.
+///
+/// A view has pointers to points, of the kernel of the mesh, and what is known of them. weft::Cell_view_3 has the four
+/// `points` of a cell, as a std::array of pointers, the weft::Vertex_location_3 of each in `locations` (`dimension` 0
+/// on a corner, 1 on a crease, 2 on a patch, 3 inside, and `index`, the number of that corner, crease, patch or
+/// subdomain), a pointer to its `circumcenter`, and its `subdomain`. weft::Facet_view_3 has three points and locations,
+/// a pointer to the `center` of its surface Delaunay ball, and its `patch`. Pointers hold during the call alone.
 /// \tparam View weft::Facet_view_3 or weft::Cell_view_3.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
 /// \ingroup concept_classes
@@ -54,16 +60,16 @@ public:
   ElementDemand_3(const ElementDemand_3&) = default;
   ElementDemand_3& operator=(const ElementDemand_3&) = delete;
 
-  /// How bad an element is: above 1 if it has to be refined, the worst first. Small enough elements must be content, or
-  /// the run ends at the size floor.
+  /// How bad an element is: above 1 if it has to be refined, the worst first. Small enough elements must have at most
+  /// 1, otherwise the run ends at the size floor. The points of `element` are pointers that are valid during the call.
   double operator()(const View& element) const { return model_(element); }
 
 private:
   Model model_;
 };
 
-/// What watches a run, for the `visitor` of all options. Copied; called between steps by the thread that called the
-/// mesher. `std::ref(visitor)` keeps its state where it is.
+/// A function that is called during a run, for the `visitor` of all options. Copied; called between steps by the thread
+/// that called the mesher. `std::ref(visitor)` keeps its state where it is.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
 /// \ingroup concept_classes
 template <class Model>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The concept of what weft::smooth_3() is guided by, as a class with just what is asked for. Part of the manual, not of
-// the library; archetypes_test smooths with it.
+// The concept of smoothers, for weft::smooth_3(), as a class with just the members it requires. Part of the manual, not
+// of the library; archetypes_test smooths with it.
 
 #ifndef WEFT_DOC_SMOOTHER_3_H
 #define WEFT_DOC_SMOOTHER_3_H
@@ -11,8 +11,8 @@
 
 namespace concepts {
 
-/// Where a vertex wants to be, given the cells around it. The driver projects that onto the vertex's patch or crease,
-/// shortens the move, and takes it back where a criterion would be violated.
+/// The position that a vertex should have, given the cells around it. weft::smooth_3() projects it onto the vertex's
+/// patch or crease, shortens the move, and undoes it where a criterion would be violated.
 ///
 /// Models: weft::Natural_odt_3, weft::Odt_3, weft::Lloyd_3.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
@@ -28,7 +28,9 @@ public:
 
   explicit Smoother_3(const Model& model) : model_(model) {}
 
-  /// Called by several threads at once.
+  /// Called by several threads at once. Vertex_handle and Cell_handle are those of weft::Mesh_triangulation_3: a vertex
+  /// has `point()`, `location()` and `id()`, a cell `vertex(i)`, `neighbor(i)`, `subdomain()` and `circumcenter()`.
+  /// examples/custom_smoother.h is a smoother.
   /// \tparam Context weft::Smoothing_context_3: the mesh, sizes, masses of cells, crease edges.
   /// \param v neither a feature vertex nor locked.
   /// \param star all finite cells around v, those outside of the domain included.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The concepts of vertex, face and cell bases, as classes with just what they add to CGAL's. Part of the manual, not of
-// the library; archetypes_test makes a mesh with the planar ones.
+// The concepts of vertex, face and cell bases, as classes with just the members that they add to CGAL's. Part of the
+// manual, not of the library; archetypes_test makes a mesh with the planar ones.
 
 #ifndef WEFT_DOC_MESH_BASES_H
 #define WEFT_DOC_MESH_BASES_H

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What weft throws when an input can't be meshed. Every exception carries the offending elements as indices into
-// the caller's own arrays, so that a program can show them; `what()` is one line for a person.
-// "Stopped early" is not an error: that is a value in the report.
+// The exceptions of weft. Every exception carries the offending elements as indices into the caller's own arrays, so
+// that a program can show them; `what()` is one line for a person. "Stopped early" is not an error: that is a value in
+// the report.
 
 #ifndef WEFT_ERRORS_H
 #define WEFT_ERRORS_H

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE with a planar triangle mesh that you have. `improve_2()` raises its smallest angles: the mesh becomes a
+// START HERE with a planar triangle mesh that you have: `improve_2()` raises its smallest angles. The mesh becomes a
 // constrained Delaunay mesh of the same domain and regions with about the same vertices. The boundary slides along
 // itself, or every edge of it stays.
+//
+//   #include <weft/IO/read_triangle_mesh.h>
+//   #include <weft/IO/write_mesh_2.h>
 //
 //   const auto input = weft::IO::read_triangle_mesh<K>("part.msh");
 //   const auto [mesh, report] = weft::improve_2(input.mesh);
@@ -12,9 +15,11 @@
 #define WEFT_IMPROVE_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/answers.h>
 #include <weft/internal/Run.h>
 #include <weft/planar/mesh/assemble_mesh_2.h>
 #include <weft/planar/mesh/quality_2.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
 #include <weft/planar/run/Improve_options_2.h>
 #include <weft/planar/run/Mesh_improver_2.h>
@@ -23,6 +28,7 @@
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,6 +43,20 @@ struct Improve_result_2
 };
 
 namespace internal {
+
+template <class Mesh>
+struct Is_triangle_mesh_2 : std::false_type
+{};
+template <class K>
+struct Is_triangle_mesh_2<Triangle_mesh_2<K>> : std::true_type
+{};
+
+/// What is returned after a complaint.
+struct No_result_2
+{
+  int mesh = 0;
+  Improve_report_2 report;
+};
 
 template <class K>
 std::size_t count_inverted(const Triangle_mesh_2<K>& mesh)
@@ -265,6 +285,17 @@ Improve_result_2<K> improve_2(const Triangle_mesh_2<K>& mesh, const Improve_opti
   internal::require_structure(mesh);
   return internal::Optimisation_2<K>(mesh, options).run();
 }
+
+/// \cond
+// An overload that only says what is wrong.
+template <class Mesh, std::enable_if_t<!internal::Is_triangle_mesh_2<Mesh>::value, int> = 0>
+internal::No_result_2 improve_2(const Mesh&, const Improve_options_2& = Improve_options_2())
+{
+  static_assert(internal::never_v<Mesh>, "weft: improve_2() takes a weft::Triangle_mesh_2<K>: triangle_mesh_2() makes "
+                                         "one of a triangulation, assemble_mesh_2() of arrays");
+  return {};
+}
+/// \endcond
 
 } // namespace weft
 

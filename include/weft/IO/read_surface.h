@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Reads a surface from a file; the extension says in which format.
+//
+// Readers of weft's own, not `CGAL::IO::read_polygon_soup()`: that one (5.5) takes an .obj file that ends in the middle
+// of a facet and facets of points that don't exist, refuses .off files without a header line, and can't say which line
+// is wrong or why.
 
 #ifndef WEFT_IO_READ_SURFACE_H
 #define WEFT_IO_READ_SURFACE_H

@@ -5,6 +5,7 @@
 #ifndef WEFT_IO_WRITE_ANGLE_HISTOGRAM_SVG_H
 #define WEFT_IO_WRITE_ANGLE_HISTOGRAM_SVG_H
 
+#include <weft/internal/as_index.h>
 #include <weft/IO/internal/Svg_canvas.h>
 
 #include <algorithm>
@@ -139,8 +140,8 @@ inline void draw_histograms(const std::string& filename, const std::vector<const
   canvas.text(500, 44, 22, "middle", title);
   draw_histogram_axes(canvas, axes);
   const int n = static_cast<int>(histograms.size());
-  for (int i = 0; i < n; ++i) draw_bars(canvas, axes, *histograms[i], fills[i], i, n);
-  for (int i = 0; i < n; ++i) draw_extremes(canvas, axes, *histograms[i], fills[i], i);
+  for (int i = 0; i < n; ++i) draw_bars(canvas, axes, *histograms[as_index(i)], fills[as_index(i)], i, n);
+  for (int i = 0; i < n; ++i) draw_extremes(canvas, axes, *histograms[as_index(i)], fills[as_index(i)], i);
   canvas.close();
 }
 

@@ -7,6 +7,7 @@
 #ifndef WEFT_IO_WRITE_GMSH_2_H
 #define WEFT_IO_WRITE_GMSH_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/write_gmsh_3.h> // the overload for spatial meshes
@@ -33,7 +34,7 @@ struct Gmsh_entity
 
   void include(const std::array<double, 2>& p)
   {
-    for (int i = 0; i < 2; ++i) lower[i] = std::min(lower[i], p[i]), upper[i] = std::max(upper[i], p[i]);
+    for (std::size_t i = 0; i < 2; ++i) lower[i] = std::min(lower[i], p[i]), upper[i] = std::max(upper[i], p[i]);
   }
 };
 
@@ -66,7 +67,7 @@ inline Gmsh_entities gmsh_entities(const Indexed_mesh_2& mesh)
   }
   for (std::size_t i = 0; i < mesh.fixed.size(); ++i) owner[mesh.fixed[i]] = {0, static_cast<int>(i) + 1};
   for (std::size_t v = 0; v < owner.size(); ++v) {
-    Gmsh_entity& entity = entities[owner[v].first][owner[v].second];
+    Gmsh_entity& entity = entities[as_index(owner[v].first)][owner[v].second];
     entity.nodes.push_back(v);
     if (owner[v].first == 0) entity.include(mesh.points[v]);
   }
@@ -78,7 +79,7 @@ inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities& entities)
   out << "$Entities\n" << entities[0].size() << ' ' << entities[1].size() << ' ' << entities[2].size() << " 0\n";
   for (const auto& [tag, point] : entities[0]) out << tag << ' ' << point.lower[0] << ' ' << point.lower[1] << " 0 0\n";
   for (int dimension = 1; dimension <= 2; ++dimension)
-    for (const auto& [tag, entity] : entities[dimension]) {
+    for (const auto& [tag, entity] : entities[as_index(dimension)]) {
       out << tag << ' ' << entity.lower[0] << ' ' << entity.lower[1] << " 0 " << entity.upper[0] << ' '
           << entity.upper[1] << " 0 ";
       if (entity.physical != 0)
@@ -97,7 +98,7 @@ inline void write_gmsh_nodes(Text_writer& out, const Indexed_mesh_2& mesh, const
     for (const auto& [tag, entity] : of_dimension) blocks += !entity.nodes.empty();
   out << "$Nodes\n" << blocks << ' ' << mesh.points.size() << " 1 " << mesh.points.size() << '\n';
   for (int dimension = 0; dimension <= 2; ++dimension)
-    for (const auto& [tag, entity] : entities[dimension]) {
+    for (const auto& [tag, entity] : entities[as_index(dimension)]) {
       if (entity.nodes.empty()) continue;
       out << dimension << ' ' << tag << " 0 " << entity.nodes.size() << '\n';
       for (const std::size_t v : entity.nodes) out << v + 1 << '\n';

@@ -7,6 +7,7 @@
 #ifndef WEFT_IO_WRITE_GMSH_3_H
 #define WEFT_IO_WRITE_GMSH_3_H
 
+#include <weft/internal/as_index.h>
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
@@ -39,7 +40,7 @@ struct Gmsh_entity_3
   }
   void include(const std::array<double, 3>& p)
   {
-    for (int i = 0; i < 3; ++i) lower[i] = (std::min)(lower[i], p[i]), upper[i] = (std::max)(upper[i], p[i]);
+    for (std::size_t i = 0; i < 3; ++i) lower[i] = (std::min)(lower[i], p[i]), upper[i] = (std::max)(upper[i], p[i]);
   }
 };
 
@@ -52,7 +53,7 @@ void add_gmsh_elements(Gmsh_entities_3& entities, const Tetrahedral_mesh_3<K>& m
                        const Elements& elements, const std::vector<int>& tags, int first)
 {
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    Gmsh_entity_3& entity = entities[dimension][tags[i] + first];
+    Gmsh_entity_3& entity = entities[as_index(dimension)][tags[i] + first];
     entity.elements.push_back(i);
     for (const std::size_t v : elements[i]) entity.include(xyz(mesh.points[v]));
   }
@@ -72,13 +73,13 @@ void bound_gmsh_entities(Gmsh_entities_3& entities, const Tetrahedral_mesh_3<K>&
   std::map<std::array<std::size_t, 3>, int> patch_of;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     patch_of[sorted(mesh.facets[f])] = mesh.patches[f] + 1;
-    for (int i = 0; i < 3 && !crease_of.empty(); ++i) {
+    for (std::size_t i = 0; i < 3 && !crease_of.empty(); ++i) {
       const auto crease = crease_of.find(sorted<2>({mesh.facets[f][i], mesh.facets[f][(i + 1) % 3]}));
       if (crease != crease_of.end()) entities[2][mesh.patches[f] + 1].boundary.insert(crease->second);
     }
   }
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       const auto& cell = mesh.cells[c];
       const auto patch = patch_of.find(sorted<3>({cell[(i + 1) % 4], cell[(i + 2) % 4], cell[(i + 3) % 4]}));
       if (patch != patch_of.end()) entities[3][mesh.subdomains[c]].boundary.insert(patch->second);
@@ -96,7 +97,7 @@ Gmsh_entities_3 gmsh_entities(const Tetrahedral_mesh_3<K>& mesh)
   for (const std::size_t v : mesh.corners) entities[0][mesh.locations[v].index + 1].elements.push_back(v);
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const auto& location = mesh.locations[v];
-    Gmsh_entity_3& entity = entities[location.dimension][location.index + (location.dimension < 3 ? 1 : 0)];
+    Gmsh_entity_3& entity = entities[as_index(location.dimension)][location.index + (location.dimension < 3 ? 1 : 0)];
     entity.nodes.push_back(v);
     entity.include(xyz(mesh.points[v]));
   }
@@ -110,7 +111,7 @@ inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities_3& entitie
       << entities[0].size() << ' ' << entities[1].size() << ' ' << entities[2].size() << ' ' << entities[3].size()
       << '\n';
   for (int dimension = 0; dimension <= 3; ++dimension)
-    for (const auto& [tag, entity] : entities[dimension]) {
+    for (const auto& [tag, entity] : entities[as_index(dimension)]) {
       out << tag << ' ';
       for (const double x : entity.lower) out << x << ' ';
       if (dimension > 0)
@@ -133,7 +134,7 @@ void write_gmsh_nodes(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const
     for (const auto& tag_and_entity : of_dimension) blocks += !tag_and_entity.second.nodes.empty();
   out << "$Nodes\n" << blocks << ' ' << mesh.points.size() << " 1 " << mesh.points.size() << '\n';
   for (int dimension = 0; dimension <= 3; ++dimension)
-    for (const auto& [tag, entity] : entities[dimension]) {
+    for (const auto& [tag, entity] : entities[as_index(dimension)]) {
       if (entity.nodes.empty()) continue;
       out << dimension << ' ' << tag << " 0 " << entity.nodes.size() << '\n';
       for (const std::size_t v : entity.nodes) out << v + 1 << '\n';
@@ -150,7 +151,7 @@ template <class Vertices>
 void write_gmsh_blocks(Text_writer& out, const Gmsh_entities_3& entities, int dimension, int type, std::size_t& number,
                        const Vertices& vertices)
 {
-  for (const auto& [tag, entity] : entities[dimension]) {
+  for (const auto& [tag, entity] : entities[as_index(dimension)]) {
     if (entity.elements.empty()) continue;
     out << dimension << ' ' << tag << ' ' << type << ' ' << entity.elements.size() << '\n';
     for (const std::size_t i : entity.elements) {

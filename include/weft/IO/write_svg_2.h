@@ -27,7 +27,7 @@ namespace internal {
 inline std::array<double, 3> angles(const Indexed_mesh_2& mesh, const Indexed_mesh_2::Triangle& triangle)
 {
   std::array<double, 3> result{};
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const auto &p = mesh.points[triangle.vertices[i]], &q = mesh.points[triangle.vertices[(i + 1) % 3]],
                &r = mesh.points[triangle.vertices[(i + 2) % 3]];
     double u[2] = {q[0] - p[0], q[1] - p[1]}, v[2] = {r[0] - p[0], r[1] - p[1]};
@@ -82,7 +82,7 @@ inline void draw_triangles(Svg_canvas& canvas, const Svg_frame& frame, const Ind
   for (const auto& [shade, triangles] : of_shade) {
     canvas.begin_path("fill=\"" + colour((shade + 0.5) / shades) + "\" " + Svg_canvas::stroke("#34434f", stroke));
     for (const std::size_t t : triangles) {
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         const auto& p = mesh.points[mesh.triangles[t].vertices[i]];
         i == 0 ? canvas.move_to(frame.x(p[0]), frame.y(p[1])) : canvas.line_to(frame.x(p[0]), frame.y(p[1]));
       }

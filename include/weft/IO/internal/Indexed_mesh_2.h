@@ -6,8 +6,10 @@
 #ifndef WEFT_IO_INTERNAL_INDEXED_MESH_2_H
 #define WEFT_IO_INTERNAL_INDEXED_MESH_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/planar/graph/Constraint_markers.h>
 #include <weft/planar/graph/mark_domain.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 
@@ -57,9 +59,9 @@ struct Indexed_mesh_2
 template <class Cdt>
 std::vector<int> domain_components(const Cdt& cdt, const Face_components<Cdt>& components, int& count)
 {
-  std::vector<int> number(components.count, -1);
+  std::vector<int> number(as_index(components.count), -1);
   for (const auto face : cdt.finite_face_handles()) {
-    int& n = number[components.number[face]];
+    int& n = number[as_index(components.number[face])];
     if (face->is_in_domain() && n == -1) n = count++;
   }
   return number;
@@ -71,13 +73,14 @@ void take_triangles(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>
 {
   const auto components = face_components(cdt);
   const std::vector<int> number = domain_components(cdt, components, mesh.number_of_components);
-  std::vector<int> marker(components.count, tags.regions.empty() ? 1 : 0);
-  for (const auto& region : tags.regions) marker[components.number[cdt.locate(region.point)]] = region.marker;
+  std::vector<int> marker(as_index(components.count), tags.regions.empty() ? 1 : 0);
+  for (const auto& region : tags.regions) marker[as_index(components.number[cdt.locate(region.point)])] = region.marker;
   for (const auto face : cdt.finite_face_handles()) {
     if (!face->is_in_domain()) continue;
     const int c = components.number[face];
-    mesh.triangles.push_back(
-        {{index[face->vertex(0)], index[face->vertex(1)], index[face->vertex(2)]}, number[c], marker[c]});
+    mesh.triangles.push_back({{index[face->vertex(0)], index[face->vertex(1)], index[face->vertex(2)]},
+                              number[as_index(c)],
+                              marker[as_index(c)]});
   }
 }
 

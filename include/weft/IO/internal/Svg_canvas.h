@@ -26,7 +26,7 @@ inline std::string colour(double value)
   const std::size_t i = std::min(static_cast<std::size_t>(place), stops.size() - 2);
   char text[8];
   int c[3];
-  for (int k = 0; k < 3; ++k)
+  for (std::size_t k = 0; k < 3; ++k)
     c[k] =
         static_cast<int>(std::lround(stops[i][k] + (place - static_cast<double>(i)) * (stops[i + 1][k] - stops[i][k])));
   std::snprintf(text, sizeof text, "#%02x%02x%02x", c[0] & 255, c[1] & 255, c[2] & 255);

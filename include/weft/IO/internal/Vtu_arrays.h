@@ -183,8 +183,8 @@ private:
       const auto [next, error] = std::from_chars(at + (*at == '+'), end, number);
       if (error == std::errc::invalid_argument || next == at)
         fail(static_cast<std::size_t>(at - text_.data()),
-             "a number should follow, not '" + Line_reader::printable(std::string_view(at, end - at).substr(0, 12)) +
-                 "'");
+             "a number should follow, not '" +
+                 Line_reader::printable(std::string_view(at, static_cast<std::size_t>(end - at)).substr(0, 12)) + "'");
       result.push_back(number);
       at = next;
     }

@@ -33,7 +33,7 @@ struct Frame_3
   explicit Frame_3(const Box_3& box)
   {
     double half = 0;
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       center[k] = box.low[k] / 2 + box.high[k] / 2;
       half = std::max({half, box.high[k] - center[k], center[k] - box.low[k]});
     }
@@ -86,7 +86,7 @@ public:
     constexpr double wall = 1 + 2. * box_slack;
     Framed_segment_3 result; // the one that is returned everywhere: a copy would have to wait for its floats
     double first = 0, last = 1;
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       if (std::abs(p[k]) <= wall && std::abs(q[k]) <= wall) continue;
       const double d = q[k] - p[k];
       if (d == 0) return result;
@@ -94,7 +94,7 @@ public:
       first = std::max(first, in), last = std::min(last, out);
     }
     if (!(first <= last)) return result;
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       const double d = q[k] - p[k];
       result.origin[k] = static_cast<float>(p[k] + first * d);
       result.direction[k] = static_cast<float>((last - first) * d);
@@ -132,9 +132,9 @@ public:
 
   /// The same for the ray from p, in the frame, along axis k, upwards or downwards.
   template <class Visit>
-  bool visit_ray(const std::array<float, 3>& p, int k, bool upwards, Visit&& visit) const
+  bool visit_ray(const std::array<float, 3>& p, std::size_t k, bool upwards, Visit&& visit) const
   {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
     const Float_4 x = p[k], y = p[i], z = p[j];
     return visit_where(
         [&](const Node& node) {
@@ -155,7 +155,7 @@ public:
         [&](const Node& node) {
           Mask_4 meets = Float_4(0.f) <= Float_4(0.f);
           Float_4 smallest = -offset - width, largest = width - offset;
-          for (int k = 0; k < 3; ++k) {
+          for (std::size_t k = 0; k < 3; ++k) {
             const Float_4 a = node.side(k), b = node.side(k + 3);
             meets = meets & (a <= Float_4(high[k])) & (Float_4(low[k]) <= b);
             smallest = smallest + Float_4(normal[k]) * (normal[k] < 0 ? b : a);
@@ -235,7 +235,7 @@ private:
   // A network: no branches.
   static void sort_descending(std::array<std::uint64_t, 4>& x)
   {
-    const auto order = [&x](int i, int j) {
+    const auto order = [&x](std::size_t i, std::size_t j) {
       const std::uint64_t change = (x[i] ^ x[j]) & (0 - std::uint64_t(x[i] < x[j]));
       x[i] ^= change, x[j] ^= change;
     };
@@ -281,12 +281,12 @@ private:
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
     std::array<Box_tree_builder_3::Range, 4> children;
-    const int count = builder.split_in_four(range, children);
-    for (int i = 0; i < 4; ++i) {
+    const std::size_t count = builder.split_in_four(range, children);
+    for (std::size_t i = 0; i < 4; ++i) {
       set_box(nodes_[index], i, i < count ? children[i].box : Box_3());
       nodes_[index].child[i] = leaf_bit;
     }
-    for (int i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t child =
           children[i].size() <= 4 ? add_block(builder, children[i]) : flatten(builder, children[i]);
       nodes_[index].child[i] = child;
@@ -302,12 +302,12 @@ private:
     return block | leaf_bit;
   }
 
-  void set_box(Node& node, int lane, const Box_3& box) const
+  void set_box(Node& node, std::size_t lane, const Box_3& box) const
   {
     constexpr float far = 1e30f; // an empty box is met by nothing
     const bool is_empty = box.low[0] > box.high[0];
     const auto low = frame_(box.low[0], box.low[1], box.low[2]), high = frame_(box.high[0], box.high[1], box.high[2]);
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       node.sides[k][lane] = is_empty ? far : static_cast<float>(low[k]) - box_slack;
       node.sides[k + 3][lane] = is_empty ? -far : static_cast<float>(high[k]) + box_slack;
     }

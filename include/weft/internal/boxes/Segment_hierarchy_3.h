@@ -114,7 +114,7 @@ private:
       }
       const auto fa = frame(a.x(), a.y(), a.z()), fb = frame(b.x(), b.y(), b.z());
       double plane = 0, size = 1;
-      for (int k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         // Twice 2^-24 and more of the larger coordinate: the polygon's own rounding counts too.
         const double slack = 1e-6 * (1 + std::max(std::abs(box.low[k]), std::abs(box.high[k])));
         low[k] = static_cast<float>(box.low[k] - slack), high[k] = static_cast<float>(box.high[k] + slack);

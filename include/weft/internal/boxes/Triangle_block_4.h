@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace weft::internal {
@@ -58,11 +59,12 @@ struct alignas(16) Triangle_block_4
   }
 
   /// \param a,b,c corners in the frame, rounded from input coordinates by one subtraction.
-  void set(int lane, const std::array<double, 3>& a, const std::array<double, 3>& b, const std::array<double, 3>& c)
+  void set(std::size_t lane, const std::array<double, 3>& a, const std::array<double, 3>& b,
+           const std::array<double, 3>& c)
   {
     std::array<double, 3> u, v, w;
     double largest = 0;
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       u[k] = b[k] - a[k], v[k] = c[k] - a[k], w[k] = c[k] - b[k];
       largest = std::max({largest, std::abs(u[k]), std::abs(v[k])});
       corner[k][lane] = static_cast<float>(a[k]);
@@ -82,7 +84,7 @@ struct alignas(16) Triangle_block_4
       return squared > 1e-30 ? static_cast<float>(1 / squared) : 0.f; // shorter than floats can tell: a point
     };
     inverse_lengths[0][lane] = inverse(u), inverse_lengths[1][lane] = inverse(v), inverse_lengths[2][lane] = inverse(w);
-    for (int k = 0; k < 3; ++k) normal[k][lane] = area > 0 ? static_cast<float>(n[k] / area) : 0.f;
+    for (std::size_t k = 0; k < 3; ++k) normal[k][lane] = area > 0 ? static_cast<float>(n[k] / area) : 0.f;
   }
 
   /// Bit i is set if the segment may meet triangle i. With u = 2^-24 and coordinates of the origin relative to a corner
@@ -109,10 +111,10 @@ struct alignas(16) Triangle_block_4
   }
 
   /// The same for the line through p along axis k.
-  unsigned line_candidates(const std::array<float, 3>& p, int k) const
+  unsigned line_candidates(const std::array<float, 3>& p, std::size_t k) const
   {
     constexpr float unit = 1.f / (1 << 24), bound = 96 * unit;
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
     const Float_4 x = Float_4(p[i]) - Float_4::load(corner[i]), y = Float_4(p[j]) - Float_4::load(corner[j]);
     const Float_4 abx = Float_4::load(first_edge[i]), aby = Float_4::load(first_edge[j]);
     const Float_4 acx = Float_4::load(second_edge[i]), acy = Float_4::load(second_edge[j]);

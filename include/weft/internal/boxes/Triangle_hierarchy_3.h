@@ -54,7 +54,7 @@ public:
       if (item == Box_hierarchy_3::nothing) continue;
       triangles_[i] = triangles[item];
       const auto& p = triangles[item].points;
-      blocks_[i / 4].set(static_cast<int>(i % 4), framed(p[0]), framed(p[1]), framed(p[2]));
+      blocks_[i / 4].set(i % 4, framed(p[0]), framed(p[1]), framed(p[2]));
     }
   }
 
@@ -82,10 +82,10 @@ public:
   {
     const Xyz_3 x = xyz(p);
     if (boxes_.empty() || !is_in_box(x)) return 0;
-    int axis = 0;
+    std::size_t axis = 0;
     bool upwards = false;
     double shortest = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       if (x[k] - box_.low[k] < shortest) shortest = x[k] - box_.low[k], axis = k, upwards = false;
       if (box_.high[k] - x[k] < shortest) shortest = box_.high[k] - x[k], axis = k, upwards = true;
     }
@@ -172,7 +172,7 @@ private:
 
   bool is_in_box(const Xyz_3& x) const
   {
-    for (int k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k)
       if (!(box_.low[k] <= x[k] && x[k] <= box_.high[k])) return false;
     return true;
   }

@@ -23,7 +23,7 @@ struct Box_3
 
   void add(const Box_3& other)
   {
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], other.low[k]);
       high[k] = std::max(high[k], other.high[k]);
     }
@@ -69,7 +69,7 @@ public:
   {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       entries_[i].box = boxes[i], entries_[i].item = static_cast<std::uint32_t>(i);
-      for (int k = 0; k < 3; ++k) entries_[i].middle[k] = boxes[i].low[k] / 2 + boxes[i].high[k] / 2;
+      for (std::size_t k = 0; k < 3; ++k) entries_[i].middle[k] = boxes[i].low[k] / 2 + boxes[i].high[k] / 2;
     }
   }
 
@@ -78,15 +78,16 @@ public:
 
   /// Splits the range, and the parts of largest surface again, until there are four parts or all have at most four
   /// boxes. Returns the number of parts.
-  int split_in_four(const Range& range, std::array<Range, 4>& parts)
+  std::size_t split_in_four(const Range& range, std::array<Range, 4>& parts)
   {
     parts[0] = range;
-    int count = 1;
+    std::size_t count = 1;
     while (count < 4) {
-      int widest = -1;
-      for (int i = 0; i < count; ++i)
-        if (parts[i].size() > 4 && (widest < 0 || parts[i].box.half_area() > parts[widest].box.half_area())) widest = i;
-      if (widest < 0) break;
+      std::size_t widest = count; // none
+      for (std::size_t i = 0; i < count; ++i)
+        if (parts[i].size() > 4 && (widest == count || parts[i].box.half_area() > parts[widest].box.half_area()))
+          widest = i;
+      if (widest == count) break;
       split(parts[widest], parts[count++]);
     }
     return count;
@@ -103,16 +104,17 @@ private:
   };
   struct Split
   {
+    static constexpr std::size_t none = 3;
     double cost = std::numeric_limits<double>::infinity();
-    int axis = -1;
-    int bin = 0; // the first one of the right side
+    std::size_t axis = none;
+    std::size_t bin = 0; // the first one of the right side
     double low = 0, bins_per_length = 0;
     bool right(const Entry& entry) const { return bin_of(entry.middle[axis], low, bins_per_length) >= bin; }
   };
 
-  static int bin_of(double x, double low, double bins_per_length)
+  static std::size_t bin_of(double x, double low, double bins_per_length)
   {
-    return std::min(number_of_bins - 1, static_cast<int>((x - low) * bins_per_length));
+    return static_cast<std::size_t>(std::min(number_of_bins - 1, static_cast<int>((x - low) * bins_per_length)));
   }
 
   Range measured(std::uint32_t first, std::uint32_t last, int depth) const
@@ -132,7 +134,8 @@ private:
     auto middle = begin;
     if (range.depth < maximal_depth / 2) {
       const Split best = best_split(range);
-      if (best.axis >= 0) middle = std::partition(begin, end, [&](const Entry& entry) { return !best.right(entry); });
+      if (best.axis != Split::none)
+        middle = std::partition(begin, end, [&](const Entry& entry) { return !best.right(entry); });
     }
     if (middle == begin || middle == end) middle = begin + (end - begin) / 2; // equal middles: any order will do
     const auto at = static_cast<std::uint32_t>(middle - entries_.begin());
@@ -151,32 +154,32 @@ private:
   {
     std::array<Bins, 3> bins;
     std::array<double, 3> bins_per_length{};
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const double length = range.middles.high[axis] - range.middles.low[axis];
       bins_per_length[axis] = length > 1e-290 ? number_of_bins / length : 0;
     }
     for (std::uint32_t i = range.first; i < range.last; ++i)
-      for (int axis = 0; axis < 3; ++axis) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
         Bin& bin = bins[axis][bin_of(entries_[i].middle[axis], range.middles.low[axis], bins_per_length[axis])];
         bin.box.add(entries_[i].box), ++bin.count;
       }
     Split best;
-    for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis)
       if (bins_per_length[axis] > 0) try_axis(bins[axis], axis, range.middles.low[axis], bins_per_length[axis], best);
     return best;
   }
 
-  static void try_axis(const Bins& bins, int axis, double low, double bins_per_length, Split& best)
+  static void try_axis(const Bins& bins, std::size_t axis, double low, double bins_per_length, Split& best)
   {
     std::array<double, number_of_bins> right_cost{};
     Box_3 box;
     std::uint32_t count = 0;
-    for (int bin = number_of_bins - 1; bin > 0; --bin) {
+    for (std::size_t bin = number_of_bins - 1; bin > 0; --bin) {
       box.add(bins[bin].box), count += bins[bin].count;
       right_cost[bin] = cost(box, count);
     }
     box = Box_3(), count = 0;
-    for (int bin = 1; bin < number_of_bins; ++bin) {
+    for (std::size_t bin = 1; bin < number_of_bins; ++bin) {
       box.add(bins[bin - 1].box), count += bins[bin - 1].count;
       const double sum = cost(box, count) + right_cost[bin];
       if (sum < best.cost) best = {sum, axis, bin, low, bins_per_length};

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -66,10 +67,10 @@ Signed_value orientation_value(const typename K::Point_3& p, const typename K::P
 }
 
 /// Exact sign of coordinate k of (b - a) x (d - c).
-inline int sign_of_cross_product(const Xyz_3& a, const Xyz_3& b, const Xyz_3& c, const Xyz_3& d, int k)
+inline int sign_of_cross_product(const Xyz_3& a, const Xyz_3& b, const Xyz_3& c, const Xyz_3& d, std::size_t k)
 {
   using Exact = CGAL::MP_Float;
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
   const double left = (b[i] - a[i]) * (d[j] - c[j]), right = (b[j] - a[j]) * (d[i] - c[i]);
   const double error = 6e-16 * (std::abs(left) + std::abs(right)); // 4u of each
   if (error > 1e-280 && std::abs(left - right) > error) return left > right ? 1 : -1;
@@ -80,7 +81,7 @@ inline int sign_of_cross_product(const Xyz_3& a, const Xyz_3& b, const Xyz_3& c,
 }
 
 template <class Point>
-int sign_of_cross_product(const Point& a, const Point& b, const Point& c, const Point& d, int k)
+int sign_of_cross_product(const Point& a, const Point& b, const Point& c, const Point& d, std::size_t k)
 {
   return sign_of_cross_product(xyz(a), xyz(b), xyz(c), xyz(d), k);
 }
@@ -90,7 +91,7 @@ int sign_of_cross_product(const Point& a, const Point& b, const Point& c, const 
 template <class Point>
 int moved_edge_sign(int sign, const Point& p, const Point& q, const Point& a, const Point& b)
 {
-  for (int k = 0; k < 3 && sign == 0; ++k) sign = -sign_of_cross_product(a, b, p, q, k);
+  for (std::size_t k = 0; k < 3 && sign == 0; ++k) sign = -sign_of_cross_product(a, b, p, q, k);
   return sign;
 }
 
@@ -98,7 +99,7 @@ int moved_edge_sign(int sign, const Point& p, const Point& q, const Point& a, co
 template <class K>
 int moved_side(int sign, const Surface_triangle_3<K>& t)
 {
-  for (int k = 0; k < 3 && sign == 0; ++k)
+  for (std::size_t k = 0; k < 3 && sign == 0; ++k)
     sign = sign_of_cross_product(t.points[0], t.points[1], t.points[0], t.points[2], k);
   return sign;
 }
@@ -211,8 +212,10 @@ private:
   {
     using Exact = CGAL::MP_Float;
     std::array<Exact, 3> d, u, v;
-    for (int k = 0; k < 3; ++k) {
-      d[k] = Exact(q_[k]) - Exact(p_[k]), u[k] = Exact(a[k]) - Exact(p_[k]), v[k] = Exact(b[k]) - Exact(p_[k]);
+    const Xyz_3 at_a = xyz(a), at_b = xyz(b), at_p = xyz(p_), at_q = xyz(q_);
+    for (std::size_t k = 0; k < 3; ++k) {
+      d[k] = Exact(at_q[k]) - Exact(at_p[k]), u[k] = Exact(at_a[k]) - Exact(at_p[k]);
+      v[k] = Exact(at_b[k]) - Exact(at_p[k]);
     }
     return CGAL::to_double(d[0] * (u[1] * v[2] - u[2] * v[1]) + d[1] * (u[2] * v[0] - u[0] * v[2]) +
                            d[2] * (u[0] * v[1] - u[1] * v[0]));
@@ -227,11 +230,11 @@ private:
     return mean(v / (u + v + w), w / (u + v + w));
   }
 
-  Contact at_vertex(int i) const
+  Contact at_vertex(std::size_t i) const
   {
     return {t_.points[i], t_.vertices[i], t_.vertices[i], Segment_end::none, t_.index, t_.patch};
   }
-  Contact on_edge(int opposite, const Point& x, Segment_end end) const
+  Contact on_edge(std::size_t opposite, const Point& x, Segment_end end) const
   {
     const std::uint32_t a = t_.vertices[(opposite + 1) % 3], b = t_.vertices[(opposite + 2) % 3];
     return {x, std::min(a, b), std::max(a, b), end, t_.index, t_.patch};
@@ -248,18 +251,18 @@ private:
     const int zeros = !edges_[0].sign + !edges_[1].sign + !edges_[2].sign;
     if (zeros == 3) return; // a triangle without area: its neighbours are touched instead
     if (zeros == 2) {
-      for (int i = 0; i < 3; ++i)
+      for (std::size_t i = 0; i < 3; ++i)
         if (edges_[i].sign) add(at_vertex(i));
       return;
     }
     const Segment_end end = of_p_ == 0 ? Segment_end::p : of_q_ == 0 ? Segment_end::q : Segment_end::none;
     const auto at_end = [&] { return end == Segment_end::p ? p_ : q_; };
-    for (int i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i)
       if (edges_[i].sign == 0) add(on_edge(i, end == Segment_end::none ? point_on_edge(i) : at_end(), end));
     if (zeros == 0) add(within(at_end(), end));
   }
 
-  Point point_on_edge(int i) const
+  Point point_on_edge(std::size_t i) const
   {
     const Point &a = t_.points[(i + 1) % 3], &b = t_.points[(i + 2) % 3], &c = t_.points[i];
     // The weight of an end is the value of the edge opposite to it.
@@ -272,7 +275,7 @@ private:
   template <class Add>
   void coplanar_contacts(const Add& add) const
   {
-    int axis = 0; // that the plane isn't parallel to
+    std::size_t axis = 0; // that the plane isn't parallel to
     const Point& a = t_.points[0];
     while (axis < 3 && sign_of_cross_product(a, t_.points[1], a, t_.points[2], axis) == 0) ++axis;
     if (axis == 3) return; // a triangle without area
@@ -283,14 +286,14 @@ private:
       return x != y && x != z && ((y < x && x < z) || (z < x && x < y));
     };
     std::array<int, 3> of_p, of_q, of_vertex;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const Point &b = t_.points[(i + 1) % 3], &c = t_.points[(i + 2) % 3];
       of_p[i] = side(b, c, p_), of_q[i] = side(b, c, q_), of_vertex[i] = side(p_, q_, t_.points[i]);
       const Point& vertex = t_.points[i];
       if (vertex == p_ || vertex == q_ || (of_vertex[i] == 0 && between(vertex, p_, q_))) add(at_vertex(i));
     }
-    for (int i = 0; i < 3; ++i) {
-      const int b = (i + 1) % 3, c = (i + 2) % 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t b = (i + 1) % 3, c = (i + 2) % 3;
       if (of_p[i] == 0 && between(p_, t_.points[b], t_.points[c])) add(on_edge(i, p_, Segment_end::p));
       if (of_q[i] == 0 && q_ != p_ && between(q_, t_.points[b], t_.points[c])) add(on_edge(i, q_, Segment_end::q));
       if (of_p[i] * of_q[i] < 0 && of_vertex[b] * of_vertex[c] < 0)
@@ -302,16 +305,17 @@ private:
   }
 
   // Where pq crosses the edge opposite to vertex i, by the coordinates other than `axis`.
-  Point coplanar_point(int i, int axis) const
+  Point coplanar_point(std::size_t i, std::size_t axis) const
   {
     using Exact = CGAL::MP_Float;
     const Point &a = t_.points[(i + 1) % 3], &b = t_.points[(i + 2) % 3];
-    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
-    const auto area = [&](const Point& v) {
-      return std::abs(CGAL::to_double((Exact(q_[x]) - Exact(p_[x])) * (Exact(v[y]) - Exact(p_[y])) -
-                                      (Exact(q_[y]) - Exact(p_[y])) * (Exact(v[x]) - Exact(p_[x]))));
+    const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+    const Xyz_3 p = xyz(p_), q = xyz(q_);
+    const auto area = [&](const Xyz_3& v) {
+      return std::abs(CGAL::to_double((Exact(q[x]) - Exact(p[x])) * (Exact(v[y]) - Exact(p[y])) -
+                                      (Exact(q[y]) - Exact(p[y])) * (Exact(v[x]) - Exact(p[x]))));
     };
-    const double of_a = area(a), of_b = area(b), t = of_a / (of_a + of_b);
+    const double of_a = area(xyz(a)), of_b = area(xyz(b)), t = of_a / (of_a + of_b);
     return Point(a.x() + t * (b.x() - a.x()), a.y() + t * (b.y() - a.y()), a.z() + t * (b.z() - a.z()));
   }
 
@@ -333,15 +337,15 @@ enum class Ray_event
 
 /// The ray from p along axis k, upwards or downwards; p moved as above decides crossings.
 template <class K>
-Ray_event ray_event(const typename K::Point_3& p, int k, bool upwards, const Surface_triangle_3<K>& t)
+Ray_event ray_event(const typename K::Point_3& p, std::size_t k, bool upwards, const Surface_triangle_3<K>& t)
 {
   using Point = typename K::Point_3;
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
   bool degenerate = false;
   std::array<int, 3> moved;
   const Xyz_3 x = xyz(p);
   const std::array<Xyz_3, 3> corners{{xyz(t.points[0]), xyz(t.points[1]), xyz(t.points[2])}};
-  for (int v = 0; v < 3; ++v) {
+  for (std::size_t v = 0; v < 3; ++v) {
     const Xyz_3 &a = corners[(v + 1) % 3], &b = corners[(v + 2) % 3];
     const int sign = sign_of_cross_product(a, b, a, x, k);
     degenerate = degenerate || sign == 0;

@@ -5,7 +5,7 @@
 #ifndef WEFT_PLANAR_CHECK_VALIDITY_2_H
 #define WEFT_PLANAR_CHECK_VALIDITY_2_H
 
-#include <weft/planar/mesh/quality_2.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 
 #include <CGAL/enum.h>
 

@@ -8,7 +8,7 @@
 
 #include <weft/planar/check/Validity_2.h>
 #include <weft/planar/graph/Pslg_2.h>
-#include <weft/planar/mesh/quality_2.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 
 #include <CGAL/enum.h>
 #include <CGAL/number_utils.h>

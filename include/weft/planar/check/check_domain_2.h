@@ -7,12 +7,14 @@
 #define WEFT_PLANAR_CHECK_CHECK_DOMAIN_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/as_index.h>
+#include <weft/internal/Compensated_sum.h>
 #include <weft/planar/check/check_conformity_2.h>
 #include <weft/planar/check/Validity_2.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/graph/Pslg_2.h>
-#include <weft/planar/mesh/quality_2.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 
 #include <algorithm>
@@ -32,7 +34,7 @@ Validity_2 compare_flags(const Cdt& cdt, const Face_components<Cdt>& components,
 {
   Validity_2 validity;
   for (const auto face : cdt.all_face_handles()) {
-    const bool wanted = in_domain[components.number[face]];
+    const bool wanted = in_domain[as_index(components.number[face])];
     if (face->is_in_domain() != wanted)
       validity.add(Fault_kind::domain, wanted ? "a face isn't in the domain" : "a face is wrongly in the domain",
                    corners(cdt, face));
@@ -53,8 +55,8 @@ template <class Cdt, class Points>
 Validity_2 check_holes(const Cdt& cdt, const Points& holes)
 {
   const auto components = face_components(cdt);
-  std::vector<char> in_domain(components.count, 1);
-  for (const auto& p : holes) in_domain[components.number[cdt.locate(p)]] = 0;
+  std::vector<char> in_domain(as_index(components.count), 1);
+  for (const auto& p : holes) in_domain[as_index(components.number[cdt.locate(p)])] = 0;
   in_domain[0] = 0;
   return compare_flags(cdt, components, in_domain);
 }

@@ -6,7 +6,7 @@
 #define WEFT_PLANAR_CHECK_CHECK_SIZING_2_H
 
 #include <weft/planar/check/Validity_2.h>
-#include <weft/planar/mesh/quality_2.h>
+#include <weft/planar/mesh/sizing_quality_2.h>
 
 namespace weft {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether a planar triangulation is one of the sphere, combinatorially. Trusts no link before it has been followed.
+// Whether faces, neighbours and vertices of a planar triangulation fit together: with its infinite vertex it has to be
+// a triangulation of the sphere. No link is trusted before it has been followed.
 
 #ifndef WEFT_PLANAR_CHECK_CHECK_STRUCTURE_2_H
 #define WEFT_PLANAR_CHECK_CHECK_STRUCTURE_2_H

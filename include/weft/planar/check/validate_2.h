@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether a planar mesh is what it claims to be: a triangulation of the plane (combinatorially, and by the orientation
-// of its faces and hull), constrained Delaunay, conforming to the graph it was made from, with the right faces in the
-// domain, and no larger than a sizing field allows. Exact predicates decide wherever the truth doesn't depend on
-// rounding; the two checks that do depend on it say how. Every check walks the triangulation by itself, needs no
-// assertions of CGAL and changes nothing, and each can be called alone.
+// Whether a planar mesh is valid: a triangulation of the plane (combinatorially, and by the orientation of its faces
+// and hull), constrained Delaunay, conforming to the graph it was made from, with the right faces in the domain, and no
+// larger than a sizing field allows. Exact predicates decide wherever the truth doesn't depend on rounding; the two
+// checks that do depend on it say how. Every check walks the triangulation by itself, needs no assertions of CGAL and
+// changes nothing, and each can be called alone.
 //
 // Works on any CGAL constrained triangulation whose faces have `is_in_domain()`.
 

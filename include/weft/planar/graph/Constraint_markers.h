@@ -8,6 +8,7 @@
 #ifndef WEFT_PLANAR_GRAPH_CONSTRAINT_MARKERS_H
 #define WEFT_PLANAR_GRAPH_CONSTRAINT_MARKERS_H
 
+#include <weft/internal/as_index.h>
 #include <weft/planar/graph/Pslg_2.h>
 
 #include <CGAL/Unique_hash_map.h>
@@ -57,7 +58,7 @@ public:
   int marker(int segment) const
   {
     if (segment < 0) return 0;
-    return static_cast<std::size_t>(segment) < markers_.size() ? markers_[segment] : segment + 1;
+    return static_cast<std::size_t>(segment) < markers_.size() ? markers_[internal::as_index(segment)] : segment + 1;
   }
 
   /// Input segment of the constrained edge, or `none`. Linear in the number of edges on the piece of the segment.

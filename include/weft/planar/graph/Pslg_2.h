@@ -11,6 +11,13 @@
 
 namespace weft {
 
+/// What to do with segments that cross or overlap.
+enum class Crossings
+{
+  refuse, ///< throw Domain_error
+  split   ///< make the crossing a vertex, and the common part of overlapping segments one constraint
+};
+
 /// Planar straight line graph: points, segments between them, and optional marks.
 /// \tparam K a CGAL kernel.
 template <class K>

@@ -11,6 +11,7 @@
 #define WEFT_PLANAR_GRAPH_MARK_DOMAIN_H
 
 #include <weft/errors.h>
+#include <weft/internal/as_index.h>
 #include <weft/planar/graph/Pslg_2.h>
 
 #include <CGAL/Unique_hash_map.h>
@@ -65,19 +66,19 @@ Face_components<Cdt> face_components(const Cdt& cdt)
 template <class Cdt>
 std::vector<int> nesting_levels(const Cdt& cdt, const Face_components<Cdt>& components)
 {
-  std::vector<std::vector<int>> neighbors(components.count);
+  std::vector<std::vector<int>> neighbors(as_index(components.count));
   for (auto edge = cdt.constrained_edges_begin(); edge != cdt.constrained_edges_end(); ++edge) {
     const int a = components.number[edge->first], b = components.number[edge->first->neighbor(edge->second)];
     if (a == b) continue;
-    neighbors[a].push_back(b);
-    neighbors[b].push_back(a);
+    neighbors[as_index(a)].push_back(b);
+    neighbors[as_index(b)].push_back(a);
   }
-  std::vector<int> level(components.count, -1), queue(1, 0);
+  std::vector<int> level(as_index(components.count), -1), queue(1, 0);
   level[0] = 0;
   for (std::size_t next = 0; next < queue.size(); ++next)
-    for (const int neighbor : neighbors[queue[next]]) {
-      if (level[neighbor] != -1) continue;
-      level[neighbor] = level[queue[next]] + 1;
+    for (const int neighbor : neighbors[as_index(queue[next])]) {
+      if (level[as_index(neighbor)] != -1) continue;
+      level[as_index(neighbor)] = level[as_index(queue[next])] + 1;
       queue.push_back(neighbor);
     }
   return level;
@@ -89,7 +90,7 @@ void set_domain(Cdt& cdt, const Face_components<Cdt>& components, const std::vec
 {
   bool empty = true;
   for (const auto face : cdt.all_face_handles()) {
-    const bool inside = components.count > 0 && in_domain[components.number[face]];
+    const bool inside = components.count > 0 && in_domain[as_index(components.number[face])];
     face->set_in_domain(inside);
     empty = empty && !inside;
   }
@@ -116,10 +117,10 @@ template <class Cdt>
 void mark_domain_by_parity(Cdt& cdt)
 {
   const auto components = internal::face_components(cdt);
-  std::vector<char> in_domain(components.count, 0);
+  std::vector<char> in_domain(internal::as_index(components.count), 0);
   if (components.count > 0) {
     const std::vector<int> level = internal::nesting_levels(cdt, components);
-    for (int i = 0; i < components.count; ++i) in_domain[i] = level[i] % 2 == 1;
+    for (int i = 0; i < components.count; ++i) in_domain[internal::as_index(i)] = level[internal::as_index(i)] % 2 == 1;
   }
   internal::set_domain(cdt, components, in_domain);
 }
@@ -133,10 +134,10 @@ void mark_domain_by_seeds(Cdt& cdt, SeedIterator seeds_begin, SeedIterator seeds
 {
   const bool mark = seeds_begin != seeds_end && seeds_are_in_domain;
   const auto components = internal::face_components(cdt);
-  std::vector<char> in_domain(components.count, !mark);
+  std::vector<char> in_domain(internal::as_index(components.count), !mark);
   if (components.count > 0) {
     for (SeedIterator seed = seeds_begin; seed != seeds_end; ++seed)
-      in_domain[components.number[cdt.locate(*seed)]] = mark;
+      in_domain[internal::as_index(components.number[cdt.locate(*seed)])] = mark;
     in_domain[0] = false;
   }
   internal::set_domain(cdt, components, in_domain);

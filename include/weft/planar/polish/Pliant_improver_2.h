@@ -8,6 +8,7 @@
 #ifndef WEFT_PLANAR_POLISH_PLIANT_IMPROVER_2_H
 #define WEFT_PLANAR_POLISH_PLIANT_IMPROVER_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/planar/polish/Neighborhood_2.h>
 #include <weft/planar/polish/Polisher_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -36,8 +37,8 @@ public:
 
   Pliant_improver_2(Mesh& mesh, Polisher_2<Mesh>& polisher) : mesh_(mesh), polisher_(polisher) {}
 
-  /// Allows so many more insertions than removals, and so many trials. Without a budget, a shore of fractal detail
-  /// takes half as many points again as greedy refinement, for angles that nobody asked for.
+  /// Allows so many more insertions than removals, and so many trials. Without a budget, fractal details of the input
+  /// take very many points, for angles that nobody asked for.
   void set_budget(std::size_t insertions, std::size_t trials)
   {
     insertions_left_ = insertions;
@@ -73,8 +74,8 @@ private:
   // What a kept change must leave of the neighborhood's cost.
   static constexpr double worth_inserting = 0.75, worth_removing = 0.8;
 
-  // A removal that multiplies the neighborhood's cost by more isn't worth polishing. On a fractal shore that ends three
-  // of five removals at once; of those kept in the end one in eight had cost more.
+  // A removal that multiplies the neighborhood's cost by more isn't worth polishing: that ends most removals at once,
+  // and few of them would have been kept.
   static constexpr double hopeless_removal = 1e4;
 
   // What a trial takes from the budget where more than a twentieth of all triangles is bad: details of the input force
@@ -90,14 +91,14 @@ private:
   {
     std::array<Vertex_handle, 3> v;
     for (int i = 0; i < 3; ++i) {
-      v[i] = mesh_.vertices()[t[i]];
-      if (v[i] == Vertex_handle()) return false;
+      v[as_index(i)] = mesh_.vertices()[as_index(t[as_index(i)])];
+      if (v[as_index(i)] == Vertex_handle()) return false;
     }
     return mesh_.triangulation().is_face(v[0], v[1], v[2], f);
   }
 
-  /// Tries the changes at a triangle, those that save a vertex first, unless all of it has been tried before: half
-  /// of the removals tried on a fractal shore were repetitions. Returns whether a change was kept.
+  /// Tries the changes at a triangle, those that save a vertex first, unless all of it has been tried before. Returns
+  /// whether a change was kept.
   bool mend(const Triangle& t)
   {
     Face_handle f;
@@ -105,7 +106,8 @@ private:
     const std::uint64_t key = key_of_surroundings(f);
     if (failures_.contains(key)) return false;
     for (int i = 0; i < 3; ++i)
-      if (find(t, f) && mesh_.vertices()[t[i]]->constraint() != fixed_vertex && try_removal(f, t[i])) {
+      if (find(t, f) && mesh_.vertices()[as_index(t[as_index(i)])]->constraint() != fixed_vertex &&
+          try_removal(f, t[as_index(i)])) {
         ++insertions_left_;
         return true;
       }
@@ -136,7 +138,7 @@ private:
     Triangle edges{0, 1, 2};
     std::sort(edges.begin(), edges.end(),
               [&](int i, int j) { return mesh_.squared_length(f, i) > mesh_.squared_length(f, j); });
-    const int i = edges[k];
+    const int i = edges[as_index(k)];
     const Point p = CGAL::midpoint(f->vertex(Triangulation::ccw(i))->point(), f->vertex(Triangulation::cw(i))->point());
     return f->is_constrained(i) ? mesh_.insert_on_constraint(p, f, i) : mesh_.insert_inside(p, f);
   }
@@ -163,7 +165,7 @@ private:
   {
     Region region(mesh_, f, 1);
     const double old_cost = cost(region.vertices());
-    const Vertex_handle v = mesh_.vertices()[id];
+    const Vertex_handle v = mesh_.vertices()[as_index(id)];
     const Point p = region.forget(v);
     const int constraint = v->constraint();
     const auto [a, b] = constraint >= 0 ? mesh_.neighbors_on_constraint(v) : std::array<Vertex_handle, 2>();
@@ -205,9 +207,8 @@ private:
 
   /// Polishes the vertices. Returns whether the cost of the triangles around them falls below a part of what it was;
   /// gives up when that is unlikely: where the first round leaves 12 times the cost, or where one more gain like the
-  /// last one would not do. That saves two thirds of the rounds and loses 3 to 5 % of the changes that would have been
-  /// kept in the end; so it isn't done where few triangles are bad: an airfoil at 100k triangles then ends with a
-  /// smallest angle of 34.0 degrees, not 29.7.
+  /// last one would not do. That saves most rounds, but loses a few changes that would have been kept in the end; so it
+  /// isn't done where few triangles are bad.
   bool settle(const std::vector<Vertex_handle>& vertices, double old_cost, double worth)
   {
     pay();

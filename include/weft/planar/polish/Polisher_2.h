@@ -9,18 +9,19 @@
 #ifndef WEFT_PLANAR_POLISH_POLISHER_2_H
 #define WEFT_PLANAR_POLISH_POLISHER_2_H
 
+#include <weft/internal/as_index.h>
+#include <weft/planar/polish/Star_cost_2.h>
+#include <weft/planar/polish/triangle_cost_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/working/Failure_memory.h>
 
-#include <CGAL/Kernel/global_functions.h>
-#include <CGAL/squared_distance_2.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -36,9 +37,9 @@ public:
   using Vertex_handle = typename Mesh::Vertex_handle;
   using Face_handle = typename Mesh::Face_handle;
 
-  static constexpr double oversize_cost = 1e30; ///< what an edge that is too long costs at least
+  static constexpr double oversize_cost = oversize_cost_2; ///< what an edge that is too long costs at least
 
-  explicit Polisher_2(Mesh& mesh) : mesh_(mesh) {}
+  explicit Polisher_2(Mesh& mesh) : mesh_(mesh), star_(mesh) {}
 
   /// To be called when the mesh has changed otherwise than by this polisher.
   void reset()
@@ -61,7 +62,7 @@ public:
     reset();
     std::size_t moved = 0;
     for (int i = 0; i < most_passes && go_on(); ++i) {
-      // Looking at all triangles again after each pass took a tenth of the time of polishing a fractal shore.
+      // Looking at all triangles again after each pass would take time for nothing.
       const std::size_t n = i == 0 ? pass(bound) : pass(faces_near(std::exchange(hopeful_, {})), bound);
       moved += n;
       if (n == 0) break;
@@ -76,15 +77,16 @@ public:
   /// can't be mended; large ones do, a vertex more can divide them.
   double cost(Face_handle f) const
   {
-    return cost(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles(f, 0), mesh_.size(f));
+    return triangle_cost_2(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point(), given_angles_2(f, 0),
+                           mesh_.size(f));
   }
 
   /// Tries to move one vertex to a better place; flips afterwards. Returns whether it moved.
   bool improve(Vertex_handle v)
   {
     hopeless_.resize(mesh_.vertices().size(), 0);
-    if (v->constraint() == fixed_vertex || hopeless_[v->id()]) return false;
-    hopeless_[v->id()] = 1;
+    if (v->constraint() == fixed_vertex || hopeless_[as_index(v->id())]) return false;
+    hopeless_[as_index(v->id())] = 1;
     const std::uint64_t key = key_of_star(v);
     if (failures_.contains(key)) return false;
     if (search_and_move(v)) {
@@ -123,7 +125,7 @@ public:
       const int edge = Triangulation::cw(face->index(v));
       if (!face->is_constrained(edge)) continue;
       const double ratio = mesh_.edge_ratio(face, edge);
-      sum += oversize(ratio * ratio);
+      sum += oversize_2(ratio * ratio);
     } while (++face != done);
     return sum;
   }
@@ -132,7 +134,7 @@ public:
   void give_hope(Vertex_handle v)
   {
     hopeless_.resize(mesh_.vertices().size(), 0);
-    if (!std::exchange(hopeless_[v->id()], 0)) return;
+    if (!std::exchange(hopeless_[as_index(v->id())], 0)) return;
     hopeful_.push_back(v);
   }
 
@@ -159,11 +161,11 @@ private:
     for (const auto& [b, i] : worst) {
       const Face_handle f = faces[i];
       std::array<Vertex_handle, 6> around;
-      int n = 0;
+      std::size_t n = 0;
       for (int k = 0; k < 3; ++k) around[n++] = f->vertex(k);
       for (int k = 0; k < 3; ++k)
         if (!f->is_constrained(k)) around[n++] = f->neighbor(k)->vertex(f->neighbor(k)->index(f));
-      for (int k = 0; k < n; ++k) moved += improve(around[k]);
+      for (std::size_t k = 0; k < n; ++k) moved += improve(around[k]);
     }
     return moved;
   }
@@ -197,9 +199,9 @@ private:
 
   bool search_and_move(Vertex_handle v)
   {
-    if (!load_star(v)) return false;
+    if (!star_.load(v)) return false;
     const Point old = v->point();
-    double cost = rank_star(CGAL::to_double(old.x()), CGAL::to_double(old.y()));
+    double cost = star_.rank(CGAL::to_double(old.x()), CGAL::to_double(old.y()));
     const double before = cost;
     if (cost < negligible) return false;
     const Point best = v->constraint() >= 0 ? search_on_constraint(v, cost) : search(v, cost);
@@ -213,129 +215,7 @@ private:
     return false;
   }
 
-  // Cotangents of 50 and 37 degrees, where a small angle begins to cost and where it costs 1; of 80 and 94 degrees.
-  static constexpr double cot_small = 0.839, cot_small_limit = 1.327, cot_large = 0.176, cot_large_limit = -0.070;
-
   static constexpr double negligible = 0.1;
-
-  /// A face around the vertex that moves. Sizes are those before the search: moves are short against the distance in
-  /// which sizes change.
-  struct Star_face
-  {
-    double ax, ay, bx, by;     // the other corners, counterclockwise after the vertex
-    double squared_base;       // length of the edge between them
-    double squared_size;       // at the centroid
-    std::array<bool, 3> given; // see `given_angles()`
-  };
-
-  /// A constrained edge at the vertex, with the size in its middle.
-  struct Chain_edge
-  {
-    double x, y, squared_size;
-  };
-
-  static double oversize(double squared_ratio) { return squared_ratio > 1 ? oversize_cost * squared_ratio : 0; }
-
-  /// Which angles of the face, from corner i on, lie between constraints.
-  static std::array<bool, 3> given_angles(Face_handle f, int i)
-  {
-    const bool e0 = f->is_constrained(i), e1 = f->is_constrained(Triangulation::ccw(i)),
-               e2 = f->is_constrained(Triangulation::cw(i));
-    return {e1 && e2, e2 && e0, e0 && e1};
-  }
-
-  double cost(const Point& p, const Point& q, const Point& r, const std::array<bool, 3>& given, double size) const
-  {
-    const double px = CGAL::to_double(p.x()), py = CGAL::to_double(p.y());
-    const double ax = CGAL::to_double(q.x()) - px, ay = CGAL::to_double(q.y()) - py;
-    const double bx = CGAL::to_double(r.x()) - px, by = CGAL::to_double(r.y()) - py;
-    // squared lengths opposite p, q, r
-    return cost(2 * (ax * by - ay * bx),
-                {(bx - ax) * (bx - ax) + (by - ay) * (by - ay), bx * bx + by * by, ax * ax + ay * ay}, given,
-                size * size);
-  }
-
-  /// \param doubled four times the area.
-  /// \param opposite squared lengths of the edges opposite the corners.
-  static double cost(double doubled, const std::array<double, 3>& opposite, const std::array<bool, 3>& given,
-                     double squared_size)
-  {
-    if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
-    const auto [p2, q2, r2] = opposite;
-    // Cotangents times `doubled`; dividing all of them took four times as long. Compilers make other forms of this
-    // loop into branches that are mispredicted, which costs up to half of the time again.
-    const std::array<double, 3> scaled{q2 + r2 - p2, p2 + r2 - q2, p2 + q2 - r2};
-    double highest = cot_small * doubled, lowest = cot_large * doubled; // of the smallest and the largest angle
-    for (int i = 0; i < 3; ++i) {
-      if (!given[i]) highest = (std::max)(highest, scaled[i]);
-      lowest = (std::min)(lowest, scaled[i]);
-    }
-    const double small = (highest - cot_small * doubled) * (1 / (cot_small_limit - cot_small)),
-                 large = (cot_large * doubled - lowest) * (1 / (cot_large - cot_large_limit));
-    const double worse = (std::max)(small, large) / doubled, w2 = worse * worse, w4 = w2 * w2, cost = w4 * w4;
-    const double longest = (std::max)((std::max)(p2, q2), r2);
-    return longest > squared_size ? cost + oversize(longest / squared_size) : cost;
-  }
-
-  bool load_star(Vertex_handle v)
-  {
-    star_.clear();
-    chain_.clear();
-    auto face = mesh_.triangulation().incident_faces(v);
-    const auto done = face;
-    do {
-      const int i = face->index(v);
-      if (face->is_constrained(Triangulation::cw(i))) {
-        const Point& q = face->vertex(Triangulation::ccw(i))->point();
-        const double size = mesh_.size(CGAL::midpoint(v->point(), q));
-        chain_.push_back({CGAL::to_double(q.x()), CGAL::to_double(q.y()), size * size});
-      }
-      if (face->is_in_domain()) star_.push_back(star_face(face, i));
-    } while (++face != done);
-    return !star_.empty();
-  }
-
-  Star_face star_face(Face_handle f, int i) const
-  {
-    const Point &a = f->vertex(Triangulation::ccw(i))->point(), &b = f->vertex(Triangulation::cw(i))->point();
-    const double ax = CGAL::to_double(a.x()), ay = CGAL::to_double(a.y()), bx = CGAL::to_double(b.x()),
-                 by = CGAL::to_double(b.y());
-    const double size = mesh_.size(f);
-    return {ax, ay, bx, by, (bx - ax) * (bx - ax) + (by - ay) * (by - ay), size * size, given_angles(f, i)};
-  }
-
-  /// Cost with the vertex at (x, y). Puts the most expensive face first: it is what rules out most other places.
-  double rank_star(double x, double y)
-  {
-    double highest = -1;
-    for (Star_face& s : star_)
-      if (const double c = cost(x, y, s); c > highest) {
-        highest = c;
-        std::swap(s, star_.front());
-      }
-    return cost_of_star(x, y, std::numeric_limits<double>::infinity());
-  }
-
-  /// Cost with the vertex at (x, y); gives up where that isn't below `stop`.
-  double cost_of_star(double x, double y, double stop) const
-  {
-    double sum = 0;
-    for (const Star_face& s : star_) {
-      sum += cost(x, y, s);
-      if (sum >= stop) return sum;
-    }
-    for (const Chain_edge& e : chain_)
-      sum += oversize(((x - e.x) * (x - e.x) + (y - e.y) * (y - e.y)) / e.squared_size);
-    return sum;
-  }
-
-  /// Cost of a face with its vertex at (x, y).
-  static double cost(double x, double y, const Star_face& s)
-  {
-    const double ax = s.ax - x, ay = s.ay - y, bx = s.bx - x, by = s.by - y;
-    return cost(2 * (ax * by - ay * bx), {s.squared_base, bx * bx + by * by, ax * ax + ay * ay}, s.given,
-                s.squared_size);
-  }
 
   /// Compass search in eight directions with halved steps; lowers `lowest`.
   Point search(Vertex_handle v, double& lowest) const
@@ -348,7 +228,7 @@ private:
 
   Point search_on_constraint(Vertex_handle v, double& lowest) const
   {
-    const auto& chain = mesh_.chains()[v->constraint()];
+    const auto& chain = mesh_.chains()[as_index(v->constraint())];
     const double dx = CGAL::to_double(chain.target->point().x() - chain.source->point().x()),
                  dy = CGAL::to_double(chain.target->point().y() - chain.source->point().y()),
                  l = std::sqrt(dx * dx + dy * dy);
@@ -364,8 +244,7 @@ private:
   template <std::size_t N>
   Point compass(Vertex_handle v, const std::array<std::array<double, 2>, N>& directions, double& lowest) const
   {
-    // Smaller steps and gains are left to later visits: a fourth step length and gains from 0.1 % on take half as long
-    // again on a fractal shore, for 1 % fewer vertices and angles as good.
+    // Smaller steps and gains are left to later visits: they cost time and gain little.
     constexpr int halvings = 3;
     constexpr double gain = 0.95;
     double x = CGAL::to_double(v->point().x()), y = CGAL::to_double(v->point().y());
@@ -374,7 +253,7 @@ private:
     std::size_t failed = 0; // directions in a row
     for (int k = 0; k < halvings;) {
       const double new_x = x + step * directions[at][0], new_y = y + step * directions[at][1];
-      const double c = cost_of_star(new_x, new_y, gain * lowest);
+      const double c = star_.at(new_x, new_y, gain * lowest);
       if (c < gain * lowest) {
         lowest = c;
         x = new_x, y = new_y;
@@ -391,8 +270,7 @@ private:
   }
 
   Mesh& mesh_;
-  std::vector<Star_face> star_;
-  std::vector<Chain_edge> chain_;
+  Star_cost_2<Mesh> star_;             // of the vertex at hand
   std::vector<char> hopeless_;         // by vertex id: tried in vain, and nothing near it has changed since
   std::vector<Vertex_handle> hopeful_; // given hope since the last pass began
   Failure_memory failures_;            // stars whose vertex found no better place

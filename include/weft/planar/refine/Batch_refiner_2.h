@@ -12,6 +12,7 @@
 #ifndef WEFT_PLANAR_REFINE_BATCH_REFINER_2_H
 #define WEFT_PLANAR_REFINE_BATCH_REFINER_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/planar/triangulation/blind_triangle_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 
@@ -39,10 +40,9 @@ public:
   /// Below this largest ratio a batch is small and its elements are independent.
   static constexpr double near_goal = 1.6;
 
-  /// While the largest ratio is above, elements up to this ratio are left to the small batches that follow. With 1
-  /// a single long edge has all elements refined that are hardly too long, too, which relaxation and polishing would
-  /// have shortened: on the local feature size of a fractal shore 11126 Steiner points instead of 9259. With 1.3 there
-  /// are 9157, for a tenth more time.
+  /// While the largest ratio is above, elements up to this ratio are left to the small batches that follow. With 1 a
+  /// single long edge has all elements refined that are hardly too long, too, which relaxation and polishing would have
+  /// shortened.
   static constexpr double least_target = 1.2;
 
   /// \param min_angle smallest angle asked for, in degrees; 0 for none.
@@ -154,8 +154,8 @@ private:
   {
     Key k;
     for (int i = 0; i < 3; ++i) {
-      k[2 * i] = CGAL::to_double(f->vertex(i)->point().x());
-      k[2 * i + 1] = CGAL::to_double(f->vertex(i)->point().y());
+      k[as_index(2 * i)] = CGAL::to_double(f->vertex(i)->point().x());
+      k[as_index(2 * i + 1)] = CGAL::to_double(f->vertex(i)->point().y());
     }
     // Which vertex comes first is an accident of history.
     while (std::pair(k[2], k[3]) < std::pair(k[0], k[1]) || std::pair(k[4], k[5]) < std::pair(k[0], k[1]))
@@ -193,7 +193,7 @@ private:
   {
     for (const int i : chains_at(a))
       for (const int j : chains_at(b)) {
-        const auto &p = mesh_.chains()[i], &q = mesh_.chains()[j];
+        const auto &p = mesh_.chains()[as_index(i)], &q = mesh_.chains()[as_index(j)];
         if (i == j) continue;
         for (const auto& [corner, end] : {std::pair(p.source, p.target), std::pair(p.target, p.source)}) {
           if (corner != q.source && corner != q.target) continue;
@@ -247,14 +247,15 @@ private:
       const Bad& b = bad_[k];
       if (b.ratio > 0 && b.ratio + change[k] <= target) continue;
       const std::array<Vertex_handle, 3> v{b.face->vertex(0), b.face->vertex(1), b.face->vertex(2)};
-      if (independent && (used[v[0]->id()] || used[v[1]->id()] || used[v[2]->id()])) continue;
+      if (independent && (used[as_index(v[0]->id())] || used[as_index(v[1]->id())] || used[as_index(v[2]->id())]))
+        continue;
       for (const Vertex_handle w : v)
-        if (w->constraint() != fixed_vertex || independent) used[w->id()] = 1;
+        if (w->constraint() != fixed_vertex || independent) used[as_index(w->id())] = 1;
       chosen_.push_back({v, b.edge});
       if (b.edge != whole_face || b.ratio == 0) continue;
       for (int i = 0; i < 3; ++i)
         if (const int n = b.face->neighbor(i)->id(); n > static_cast<int>(k) && b.face->neighbor(i)->is_in_domain())
-          change[n] += (b.ratio / std::sqrt(3.0) - target) / 3;
+          change[as_index(n)] += (b.ratio / std::sqrt(3.0) - target) / 3;
     }
   }
 
@@ -263,7 +264,8 @@ private:
     Triangulation& cdt = mesh_.triangulation();
     Face_handle f;
     if (c.edge != whole_face) {
-      const Vertex_handle a = c.vertex[Triangulation::ccw(c.edge)], b = c.vertex[Triangulation::cw(c.edge)];
+      const Vertex_handle a = c.vertex[as_index(Triangulation::ccw(c.edge))],
+                          b = c.vertex[as_index(Triangulation::cw(c.edge))];
       int i;
       return cdt.is_edge(a, b, f, i) && f->is_constrained(i) ? split(f, i) : Vertex_handle();
     }

@@ -7,12 +7,12 @@
 // dislocations, as they must. It follows the frontal point placement of Rebay (J. Comput. Phys. 106, 1993), inside out.
 //
 // Why: refinement by circumcenters leaves a glass, whose longest edges are 1.3 times the mean and so cost 1.7 times the
-// vertices. On the uniform square of 10k triangles batch refinement with relaxation ends at 1.55 times the ideal number
-// of triangles after some 400 sweeps, the crystal at 1.24 after 30.
+// vertices.
 
 #ifndef WEFT_PLANAR_REFINE_CRYSTAL_SEEDER_2_H
 #define WEFT_PLANAR_REFINE_CRYSTAL_SEEDER_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/internal/boxes/Point_quadtree_2.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/triangulation/blind_triangle_2.h>
@@ -55,7 +55,7 @@ public:
   bool run(std::size_t max_vertices, const Go_on& go_on)
   {
     Triangulation& cdt = mesh_.triangulation();
-    directions_.assign(label_components(cdt), 0);
+    directions_.assign(as_index(label_components(cdt)), 0);
     start_at_best_constraints();
     // An empty lattice is as good as half of one.
     if (!grow(max_vertices, go_on) || !fill_voids(max_vertices, go_on)) return false;
@@ -144,8 +144,8 @@ private:
   };
 
   /// The first point of a room stands above the middle edge of one of its constraints, so that the lattice starts flush
-  /// with it. Of the constraints whose direction suits the whole boundary of the room the longest is taken. A comb
-  /// with vertical teeth ends with 12 % more vertices where the lattice is flush with its back.
+  /// with it. Of the constraints whose direction suits the whole boundary of the room the longest is taken. The longest
+  /// one alone would be the back of a comb, with more vertices along its teeth.
   void start_at_best_constraints()
   {
     const std::size_t rooms = directions_.size();
@@ -159,24 +159,26 @@ private:
         starts.push_back(start_at(f, i));
         const double length = std::sqrt(mesh_.squared_length(f, i));
         const Point m = middle_of(f, i);
-        order[f->id()] += length * starts.back().direction;
-        boundary[f->id()] += length;
-        middle[f->id()][0] += length * CGAL::to_double(m.x());
-        middle[f->id()][1] += length * CGAL::to_double(m.y());
+        order[as_index(f->id())] += length * starts.back().direction;
+        boundary[as_index(f->id())] += length;
+        middle[as_index(f->id())][0] += length * CGAL::to_double(m.x());
+        middle[as_index(f->id())][1] += length * CGAL::to_double(m.y());
       }
     for (Start& s : starts) {
       const int room = s.face->id();
-      s.alignment = (order[room] * std::conj(s.direction)).real();
-      most[room] = (std::max)(most[room], s.alignment);
-      const auto& chain = mesh_.chains()[mesh_.chain_of(s.face, s.edge)];
-      const Point center(middle[room][0] / boundary[room], middle[room][1] / boundary[room]);
+      s.alignment = (order[as_index(room)] * std::conj(s.direction)).real();
+      most[as_index(room)] = (std::max)(most[as_index(room)], s.alignment);
+      const auto& chain = mesh_.chains()[as_index(mesh_.chain_of(s.face, s.edge))];
+      const Point center(middle[as_index(room)][0] / boundary[as_index(room)],
+                         middle[as_index(room)][1] / boundary[as_index(room)]);
       s.eccentricity =
           CGAL::to_double(CGAL::squared_distance(center, CGAL::midpoint(chain.source->point(), chain.target->point())));
     }
     std::vector<Start> best(rooms);
     for (const Start& s : starts) {
       const int room = s.face->id();
-      if (s.alignment >= most[room] - 0.05 * boundary[room] && is_better(s, best[room])) best[room] = s;
+      if (s.alignment >= most[as_index(room)] - 0.05 * boundary[as_index(room)] && is_better(s, best[as_index(room)]))
+        best[as_index(room)] = s;
     }
     for (const Start& s : best)
       if (s.length >= 0) start(s);
@@ -193,7 +195,7 @@ private:
 
   Start start_at(Face_handle f, int i) const
   {
-    const auto& chain = mesh_.chains()[mesh_.chain_of(f, i)];
+    const auto& chain = mesh_.chains()[as_index(mesh_.chain_of(f, i))];
     const Point &a = chain.source->point(), &b = chain.target->point();
     const std::complex<double> along(CGAL::to_double(b.x() - a.x()), CGAL::to_double(b.y() - a.y())),
         unit = along / std::abs(along);
@@ -217,7 +219,7 @@ private:
                 &b = s.face->vertex(Triangulation::cw(s.edge))->point();
     const double dx = CGAL::to_double(b.x() - a.x()), dy = CGAL::to_double(b.y() - a.y());
     const double direction = std::atan2(dy, dx);
-    directions_[s.face->id()] = direction;
+    directions_[as_index(s.face->id())] = direction;
     const Point middle = middle_of(s.face, s.edge);
     const double height = std::sqrt(0.75) * spacing(middle) / std::sqrt(dx * dx + dy * dy);
     settle(Point(middle.x() - height * dy, middle.y() + height * dx), s.face, s.face->id(), direction);
@@ -261,7 +263,7 @@ private:
       if (++tried % 1024 == 0 && !go_on(mesh_.vertices().size() + points_.size())) return false;
       const Face_handle f = mesh_.faces()[i];
       const Point c = center(f);
-      if (!is_in_box(c) || !settle(c, f, f->id(), directions_[f->id()])) continue;
+      if (!is_in_box(c) || !settle(c, f, f->id(), directions_[as_index(f->id())])) continue;
       if (!grow(max_vertices, go_on)) return false;
     }
     return true;

@@ -13,6 +13,7 @@
 #ifndef WEFT_PLANAR_RELAX_LLOYD_2_H
 #define WEFT_PLANAR_RELAX_LLOYD_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/internal/parallel_for.h>
 #include <weft/planar/relax/quadrature_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -39,7 +40,7 @@ public:
   struct Target
   {
     Point point;
-    double move_ratio; ///< length of the move over the diameter of the cell
+    double move_ratio; ///< length of the move over twice the distance to the farthest corner of the cell
   };
 
   /// \param feedback exponent of the sizing ratio in the density.
@@ -59,7 +60,7 @@ public:
       cells_.assign(mesh_.vertices().size(), Cell());
     else
       for (const Face_handle f : faces)
-        for (int i = 0; i < 3; ++i) cells_[f->vertex(i)->id()] = Cell();
+        for (int i = 0; i < 3; ++i) cells_[as_index(f->vertex(i)->id())] = Cell();
     if (threads_ <= 1) {
       for (const Face_handle f : faces) add(f, kites(f));
     } else {
@@ -74,7 +75,7 @@ public:
   /// Where the vertex wants to be: the centroid of its cell, in the plane or along its constraint.
   Target target(Vertex_handle v) const
   {
-    const Cell& cell = cells_[v->id()];
+    const Cell& cell = cells_[as_index(v->id())];
     const double diameter = 2 * std::sqrt(cell.squared_radius);
     Point p = v->point();
     if (v->constraint() >= 0) {
@@ -108,9 +109,9 @@ private:
   void add(Face_handle f, const std::array<Cell, 3>& kites)
   {
     for (int i = 0; i < 3; ++i) {
-      Cell& cell = cells_[f->vertex(i)->id()];
-      cell.moments += kites[i].moments;
-      cell.squared_radius = (std::max)(cell.squared_radius, kites[i].squared_radius);
+      Cell& cell = cells_[as_index(f->vertex(i)->id())];
+      cell.moments += kites[as_index(i)].moments;
+      cell.squared_radius = (std::max)(cell.squared_radius, kites[as_index(i)].squared_radius);
     }
   }
 
@@ -125,9 +126,9 @@ private:
     if (!mesh_.is_uniform()) s = {mesh_.target(f->vertex(0)), mesh_.target(f->vertex(1)), mesh_.target(f->vertex(2))};
     const double mean = (s[0] + s[1] + s[2]) / 3;
     const double weight = feedback(longest / (mean * mean)) * graded_density(mean / unit_);
-    const Blind* blind = f->id() >= 0 ? &blind_[f->id()] : nullptr;
+    const Blind* blind = f->id() >= 0 ? &blind_[as_index(f->id())] : nullptr;
     std::array<Cell, 3> result;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const Xy &o = p[i], &q = p[(i + 1) % 3], &r = p[(i + 2) % 3];
       const Xy right{0.5 * (q[0] - o[0]), 0.5 * (q[1] - o[1])}, left{0.5 * (r[0] - o[0]), 0.5 * (r[1] - o[1])};
       const Xy c{center[0] - o[0], center[1] - o[1]};
@@ -148,8 +149,7 @@ private:
   }
 
   /// With feedback the density needs to follow sizes less than the asymptotic size^-4 of `planar_density()`, which
-  /// drains the coarse side of steep gradients: a fractal shore of 2020 points then takes 185 batches and 4590 Steiner
-  /// points, with size^-3 none and 3007; 302 points of lakes take 725 against 646.
+  /// drains the coarse side of steep gradients, so that refinement has to fill it again.
   double graded_density(double size) const { return feedback_ == 0 ? planar_density(size) : 1 / (size * size * size); }
 
   double feedback(double squared_ratio) const
@@ -188,11 +188,12 @@ private:
   {
     const std::array<Xy, 3> corner{Xy{0, 0}, a, b};
     std::array<double, 3> side;
-    for (int k = 0; k < 3; ++k) side[k] = cross(wall.source, wall.target, Xy{o[0] + corner[k][0], o[1] + corner[k][1]});
+    for (std::size_t k = 0; k < 3; ++k)
+      side[k] = cross(wall.source, wall.target, Xy{o[0] + corner[k][0], o[1] + corner[k][1]});
     std::array<Xy, 4> kept;
-    int n = 0;
-    for (int k = 0; k < 3; ++k) {
-      const int next = (k + 1) % 3;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
       if (side[k] >= 0) kept[n++] = corner[k];
       if ((side[k] > 0 && side[next] < 0) || (side[k] < 0 && side[next] > 0)) {
         const double t = side[k] / (side[k] - side[next]);
@@ -200,9 +201,10 @@ private:
                      corner[k][1] + t * (corner[next][1] - corner[k][1])};
       }
     }
-    for (int k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < n; ++k)
       cell.squared_radius = (std::max)(cell.squared_radius, kept[k][0] * kept[k][0] + kept[k][1] * kept[k][1]);
-    for (int k = 1; k + 1 < n; ++k) cell.moments += integrate_triangle(kept[0], kept[k], kept[k + 1], parts_, density);
+    for (std::size_t k = 1; k + 1 < n; ++k)
+      cell.moments += integrate_triangle(kept[0], kept[k], kept[k + 1], parts_, density);
   }
 
   static Xy circumcenter(const std::array<Xy, 3>& p)
@@ -255,12 +257,12 @@ private:
   /// Centroid of the cell of v on its constraint, between the midpoints of its two edges.
   Point along_chain(Vertex_handle v, Vertex_handle before, Vertex_handle after) const
   {
-    const auto& chain = mesh_.chains()[v->constraint()];
+    const auto& chain = mesh_.chains()[as_index(v->constraint())];
     const Xy s = xy(chain.source), t = xy(chain.target), o = xy(v), a = xy(before), b = xy(after);
     Moments_2 moments;
     for (const auto& [end, neighbor] : {std::pair(a, before), std::pair(b, after)}) {
       const double h = mesh_.target(v), k = mesh_.target(neighbor), length = std::sqrt(squared_distance(o, end));
-      const auto density = [&, e = end](double x, double y) {
+      const auto density = [&](double x, double y) {
         const double f = length > 0 ? std::sqrt(squared_distance(o, Xy{x, y})) / length : 0;
         return linear_density((h + f * (k - h)) / h);
       };

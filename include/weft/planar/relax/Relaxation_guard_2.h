@@ -8,6 +8,7 @@
 #ifndef WEFT_PLANAR_RELAX_RELAXATION_GUARD_2_H
 #define WEFT_PLANAR_RELAX_RELAXATION_GUARD_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 
 #include <algorithm>
@@ -54,7 +55,7 @@ public:
       const std::vector<Vertex_handle> back = vertices_to_put_back(is_back);
       if (back.empty()) return;
       std::vector<Point> old;
-      for (const Vertex_handle v : back) old.push_back(points_[v->id()]);
+      for (const Vertex_handle v : back) old.push_back(points_[as_index(v->id())]);
       mesh_.relocator().move(back, old);
       for (const Vertex_handle v : back) mesh_.update_target(v);
     }
@@ -63,13 +64,13 @@ public:
   /// Puts everything back, edges included.
   void restore()
   {
-    for (const Vertex_handle v : mesh_.vertices()) v->set_point(points_[v->id()]);
+    for (const Vertex_handle v : mesh_.vertices()) v->set_point(points_[as_index(v->id())]);
     for (const auto& [v, f] : stars_) v->set_face(f);
     for (const Old_face& old : faces_) {
       for (int i = 0; i < 3; ++i) {
-        old.face->set_vertex(i, old.vertex[i]);
-        old.face->set_neighbor(i, old.neighbor[i]);
-        old.face->set_constraint(i, old.is_constrained[i]);
+        old.face->set_vertex(i, old.vertex[as_index(i)]);
+        old.face->set_neighbor(i, old.neighbor[as_index(i)]);
+        old.face->set_constraint(i, old.is_constrained[as_index(i)]);
       }
       old.face->set_in_domain(old.is_in_domain);
     }
@@ -104,9 +105,9 @@ private:
     Old_face old;
     old.face = f;
     for (int i = 0; i < 3; ++i) {
-      old.vertex[i] = f->vertex(i);
-      old.neighbor[i] = f->neighbor(i);
-      old.is_constrained[i] = f->is_constrained(i);
+      old.vertex[as_index(i)] = f->vertex(i);
+      old.neighbor[as_index(i)] = f->neighbor(i);
+      old.is_constrained[as_index(i)] = f->is_constrained(i);
     }
     old.is_in_domain = f->is_in_domain();
     return old;
@@ -160,8 +161,8 @@ private:
   {
     std::vector<Vertex_handle> result;
     const auto append = [&](Vertex_handle v) {
-      if (mesh_.is_frame(v) || is_back[v->id()] || v->point() == points_[v->id()]) return false;
-      is_back[v->id()] = 1;
+      if (mesh_.is_frame(v) || is_back[as_index(v->id())] || v->point() == points_[as_index(v->id())]) return false;
+      is_back[as_index(v->id())] = 1;
       result.push_back(v);
       return true;
     };

@@ -7,6 +7,7 @@
 #ifndef WEFT_PLANAR_RELAX_RELAXER_2_H
 #define WEFT_PLANAR_RELAX_RELAXER_2_H
 
+#include <weft/internal/as_index.h>
 #include <weft/planar/relax/Lloyd_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/triangulation/Relocator_2.h>
@@ -86,8 +87,8 @@ public:
     std::vector<char> listed(mesh_.vertices().size(), 0);
     std::size_t count = 0;
     const auto list = [&](Vertex_handle v) {
-      if (mesh_.is_frame(v) || listed[v->id()]) return;
-      listed[v->id()] = 1;
+      if (mesh_.is_frame(v) || listed[as_index(v->id())]) return;
+      listed[as_index(v->id())] = 1;
       ++count;
     };
     for (const Vertex_handle v : vertices) {
@@ -109,7 +110,7 @@ private:
   std::vector<Face_handle> faces_around(const std::vector<Vertex_handle>& active)
   {
     if (active.size() * 3 > mesh_.vertices().size()) return mesh_.faces();
-    for (const Vertex_handle v : active) is_active_[v->id()] = 1;
+    for (const Vertex_handle v : active) is_active_[as_index(v->id())] = 1;
     std::vector<Face_handle> faces;
     for (const Vertex_handle v : active) {
       auto face = mesh_.triangulation().incident_faces(v);
@@ -118,7 +119,7 @@ private:
         if (face->is_in_domain() && is_first_active(face, v)) faces.push_back(face);
       while (++face != done);
     }
-    for (const Vertex_handle v : active) is_active_[v->id()] = 0;
+    for (const Vertex_handle v : active) is_active_[as_index(v->id())] = 0;
     return faces;
   }
 
@@ -126,7 +127,7 @@ private:
   bool is_first_active(Face_handle f, Vertex_handle v) const
   {
     for (int i = 0; i < 3; ++i)
-      if (f->vertex(i)->id() < v->id() && is_active_[f->vertex(i)->id()]) return false;
+      if (f->vertex(i)->id() < v->id() && is_active_[as_index(f->vertex(i)->id())]) return false;
     return true;
   }
 

@@ -12,13 +12,10 @@
 #include <weft/options.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
-#include <weft/planar/polish/Basin_hopper_2.h>
-#include <weft/planar/polish/Pliant_improver_2.h>
-#include <weft/planar/polish/Polisher_2.h>
 #include <weft/planar/refine/Batch_refiner_2.h>
 #include <weft/planar/refine/sample_constraints_2.h>
-#include <weft/planar/relax/Relaxer_2.h>
 #include <weft/planar/run/Improve_options_2.h>
+#include <weft/planar/run/Mesh_optimiser_2.h>
 #include <weft/planar/run/outline_2.h>
 #include <weft/planar/run/outline_graph_2.h>
 #include <weft/planar/run/vertex_density_2.h>
@@ -26,6 +23,7 @@
 #include <weft/planar/working/Working_mesh_2.h>
 
 #include <CGAL/spatial_sort.h>
+#include <CGAL/Unique_hash_map.h>
 
 #include <algorithm>
 #include <array>
@@ -84,10 +82,7 @@ public:
         run_(run),
         report_(report),
         refiner_(mesh_, options.min_angle),
-        relaxer_(mesh_, size_feedback, options.threads),
-        polisher_(mesh_),
-        pliant_(mesh_, polisher_),
-        hopper_(mesh_, polisher_, options.seed)
+        optimiser_(mesh_, size_feedback, options.threads, options.seed, report)
   {
     insert_vertices(std::move(inside));
     if (options.boundary == Boundary_2::fixed) mesh_.lock_constraints();
@@ -124,10 +119,8 @@ private:
   static constexpr double size_feedback = 3; // as make_mesh_2() has it
   static constexpr double move_ratio = 0.01;
   static constexpr int quadrature = 10, most_sweeps = 12;
-  static constexpr double polish_cost = 0.5, pliant_cost = 1;
-  static constexpr std::size_t least_insertions = 20;
-  static constexpr int most_rounds = 8, most_idle = 2, most_pliant_passes = 6, most_polishing_passes = 30,
-                       most_batches = 30;
+  static constexpr std::size_t least_insertions = Mesh_optimiser_2<Mesh>::least_insertions;
+  static constexpr int most_rounds = 8, most_idle = 2, most_batches = 30;
   static constexpr double refined_angle = 28;
 
   template <class Function>
@@ -195,7 +188,7 @@ private:
   void allow_insertions(std::size_t most)
   {
     insertions_ = most;
-    pliant_.set_budget(most, 20 * least_insertions + mesh_.vertices().size() / 5);
+    optimiser_.allow_insertions(most);
   }
 
   /// Delaunay refinement of the sharpest triangles; only angles well below those that optimisation reaches are worth
@@ -213,32 +206,22 @@ private:
     refiner_.set_min_angle(options_.min_angle);
   }
 
+  // What the optimiser does, as long as the run may go on.
   void relax()
   {
-    const auto outcome =
-        relaxer_.run(mesh_.vertices(), {move_ratio, quadrature, most_sweeps}, [this] { return go_on(); });
-    report_.sweeps += outcome.sweeps;
-    report_.moves += outcome.moves.moved;
-    report_.flips += outcome.moves.flips;
+    optimiser_.relax(mesh_.vertices(), {move_ratio, quadrature, most_sweeps}, [this] { return go_on(); });
   }
-
   void polish_angles()
   {
-    report_.polished += polisher_.run(polish_cost, most_polishing_passes, [this] { return go_on(); });
+    optimiser_.polish_angles([this] { return go_on(); });
   }
-
   void polish()
   {
-    polish_angles();
-    for (int pass = 0; pass < most_pliant_passes; ++pass) {
-      if (pliant_.pass(pliant_cost, [this] { return go_on(); }) == 0) break;
-      polish_angles();
-    }
+    optimiser_.polish([this] { return go_on(); });
   }
-
   void hop()
   {
-    hopper_.run(pliant_cost, (std::min)(insertions_, room()), [this] { return go_on(); });
+    optimiser_.hop((std::min)(insertions_, room()), [this] { return go_on(); });
   }
 
   Triangulated_outline_2<K>& outline_;
@@ -249,10 +232,7 @@ private:
   Run& run_;
   Mesh_report_2& report_;
   Batch_refiner_2<Mesh> refiner_;
-  Relaxer_2<Mesh> relaxer_;
-  Polisher_2<Mesh> polisher_;
-  Pliant_improver_2<Mesh> pliant_;
-  Basin_hopper_2<Mesh> hopper_;
+  Mesh_optimiser_2<Mesh> optimiser_;
   std::size_t sharp_ = 0, most_vertices_ = 0, insertions_ = 0;
 };
 

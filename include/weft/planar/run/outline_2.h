@@ -11,6 +11,7 @@
 #include <weft/errors.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/graph/mark_domain.h>
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
 
 #include <CGAL/number_utils.h>

@@ -7,6 +7,7 @@
 #ifndef WEFT_PLANAR_RUN_OUTLINE_GRAPH_2_H
 #define WEFT_PLANAR_RUN_OUTLINE_GRAPH_2_H
 
+#include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/run/outline_2.h>
 
 #include <algorithm>

@@ -43,9 +43,7 @@ public:
       : field_(checked_sources(pslg, k, min_size, max_size, tolerance), k, min_size, max_size)
   {}
 
-  /// Target edge length at `x`. O(log n) in the number of features: at k = 0.5 an evaluation takes 0.17 microseconds
-  /// for a map of 303 segments, 0.13 / 0.28 / 0.37 / 0.45 for 10^2 / 10^3 / 10^4 / 10^5 random segments, 0.34 for a
-  /// circle of 10^5.
+  /// Target edge length at `x`. O(log n) in the number of features.
   FT operator()(const Point& x) const { return field_(x); }
 
   double k() const { return field_.k(); }

@@ -13,6 +13,8 @@
 #ifndef WEFT_PLANAR_TRIANGULATION_RELOCATOR_2_H
 #define WEFT_PLANAR_TRIANGULATION_RELOCATOR_2_H
 
+#include <weft/internal/as_index.h>
+
 #include <CGAL/enum.h>
 
 #include <algorithm>
@@ -70,12 +72,12 @@ public:
     old_.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       old_[i] = vertices[i]->point();
-      if (state_[vertices[i]->id()] >= 0) vertices[i]->set_point(targets[i]);
+      if (state_[as_index(vertices[i]->id())] >= 0) vertices[i]->set_point(targets[i]);
     }
     put_back_misplaced(vertices);
     counts.flips += restore_delaunay();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      int& state = state_[vertices[i]->id()];
+      int& state = state_[as_index(vertices[i]->id())];
       if (state >= 0)
         ++counts.moved;
       else if (state == deferred && walk(vertices[i], targets[i], counts.flips))
@@ -146,18 +148,18 @@ private:
   {
     int largest = -1;
     for (const Vertex_handle v : vertices) largest = (std::max)(largest, v->id());
-    if (static_cast<int>(state_.size()) <= largest) state_.resize(largest + 1, still);
-    for (std::size_t i = 0; i < vertices.size(); ++i) state_[vertices[i]->id()] = static_cast<int>(i);
+    if (static_cast<int>(state_.size()) <= largest) state_.resize(as_index(largest + 1), still);
+    for (std::size_t i = 0; i < vertices.size(); ++i) state_[as_index(vertices[i]->id())] = static_cast<int>(i);
     if (are_many(vertices)) { // looking around each of them takes a quarter of a sweep over all vertices
       auto v = cdt_.incident_vertices(cdt_.infinite_vertex());
       const auto done = v;
       do
-        if (has_moved(v)) state_[v->id()] = at_hull;
+        if (has_moved(v)) state_[as_index(v->id())] = at_hull;
       while (++v != done);
       return;
     }
     for (const Vertex_handle v : vertices)
-      if (is_at_hull(v)) state_[v->id()] = at_hull;
+      if (is_at_hull(v)) state_[as_index(v->id())] = at_hull;
   }
 
   bool are_many(const std::vector<Vertex_handle>& vertices) const
@@ -211,7 +213,7 @@ private:
 
   bool has_moved(Vertex_handle v) const
   {
-    return v->id() >= 0 && v->id() < static_cast<int>(state_.size()) && state_[v->id()] >= 0;
+    return v->id() >= 0 && v->id() < static_cast<int>(state_.size()) && state_[as_index(v->id())] >= 0;
   }
 
   bool may_stand(Vertex_handle v) const { return !may_stand_ || may_stand_(v); }
@@ -247,8 +249,8 @@ private:
 
   void put_back(Vertex_handle v, std::vector<Face_handle>& suspects)
   {
-    v->set_point(old_[state_[v->id()]]);
-    state_[v->id()] = deferred;
+    v->set_point(old_[as_index(state_[as_index(v->id())])]);
+    state_[as_index(v->id())] = deferred;
     auto face = cdt_.incident_faces(v);
     const auto done = face;
     do suspects.push_back(face);

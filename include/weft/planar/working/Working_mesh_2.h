@@ -5,18 +5,20 @@
 // target sizes at vertices, and a frame of four far vertices, so that no vertex that moves lies on the convex hull
 // and no rounded Steiner point can dent it. The frame is taken away again by `finish()` or the destructor.
 //
-// The triangulation needs the bases of Triangulation_2.h. All its vertices at construction are input vertices.
+// The triangulation needs the bases of Mesh_triangulation_2.h. All its vertices at construction are input vertices.
 
 #ifndef WEFT_PLANAR_WORKING_WORKING_MESH_2_H
 #define WEFT_PLANAR_WORKING_WORKING_MESH_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/as_index.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/triangulation/Relocator_2.h>
-#include <weft/planar/triangulation/remove_hull_vertex_2.h>
-#include <weft/planar/working/Size_memory.h>
-#include <weft/sizing/Lipschitz_sizing_2.h>
+#include <weft/planar/working/Constraint_chains_2.h>
+#include <weft/planar/working/Frame_2.h>
+#include <weft/planar/working/Vertex_remover_2.h>
+#include <weft/planar/working/Vertex_targets_2.h>
 #include <weft/sizing/Uniform_sizing.h>
 
 #include <CGAL/Bbox_2.h>
@@ -27,9 +29,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
-#include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -48,10 +47,7 @@ public:
   static constexpr bool uniform = is_uniform_sizing_v<Sizing>;
 
   /// A constraint between two input vertices. Steiner vertices on it carry its index in `constraint()`.
-  struct Chain
-  {
-    Vertex_handle source, target;
-  };
+  using Chain = typename Constraint_chains_2<Cdt>::Chain;
 
   /// Where constrained vertices of the given triangulation stand.
   enum class Given
@@ -63,7 +59,11 @@ public:
   /// Marks the domain by nesting parity if no face is in it yet.
   /// \throws Domain_error if there is no domain or its coordinates are out of range.
   Working_mesh_2(Cdt& cdt, const Sizing& sizing, Given given = Given::input)
-      : cdt_(cdt), relocator_(cdt, [this](Vertex_handle v) { return is_in_order(v); }), sizing_(sizing)
+      : cdt_(cdt),
+        frame_(cdt),
+        relocator_(cdt, [this](Vertex_handle v) { return is_in_order(v); }),
+        remover_(cdt, relocator_),
+        targets_(sizing)
   {
     check_coordinates();
     const bool marked = std::any_of(cdt.finite_faces_begin(), cdt.finite_faces_end(),
@@ -74,34 +74,23 @@ public:
     if (given == Given::relaxable) free_unconstrained_vertices();
     for (auto e = cdt.constrained_edges_begin(); e != cdt.constrained_edges_end(); ++e) {
       const Vertex_handle a = e->first->vertex(cdt.ccw(e->second)), b = e->first->vertex(cdt.cw(e->second));
-      chain_of_ends_[ends(a, b)] = static_cast<int>(chains_.size());
-      chains_.push_back({a, b});
+      chains_.add(a, b);
     }
-    add_frame();
-    try {
-      renumber();
-    } catch (...) { // there will be no destructor
-      finish();
-      throw;
-    }
+    frame_.add(bbox_);
+    renumber();
   }
 
   Working_mesh_2(const Working_mesh_2&) = delete;
   Working_mesh_2& operator=(const Working_mesh_2&) = delete;
-  ~Working_mesh_2() { finish(); }
 
   /// Takes the frame away. Afterwards only the triangulation itself may be used.
-  void finish()
-  {
-    for (const Vertex_handle v : frame_) remove_hull_vertex(cdt_, v);
-    frame_.clear();
-  }
+  void finish() { frame_.remove(); }
 
   Cdt& triangulation() { return cdt_; }
   const Cdt& triangulation() const { return cdt_; }
   const CGAL::Bbox_2& bbox() const { return bbox_; }
   std::size_t input_vertices() const { return input_vertices_; }
-  const std::vector<Chain>& chains() const { return chains_; }
+  const std::vector<Chain>& chains() const { return chains_.all(); }
 
   /// Finite vertices without the frame; `vertices()[v->id()] == v`.
   const std::vector<Vertex_handle>& vertices() const { return vertices_; }
@@ -112,26 +101,22 @@ public:
   void renumber()
   {
     const std::vector<Vertex_handle> old_vertices = std::move(vertices_);
-    const std::vector<double> old_sizes = std::move(sizes_);
-    const std::vector<Point> old_asked_at = std::move(asked_at_);
+    std::vector<int> old_ids;
     vertices_.clear();
-    sizes_.clear();
-    asked_at_.clear();
     faces_.clear();
     for (const Vertex_handle v : cdt_.finite_vertex_handles()) {
       if (is_frame(v)) continue;
       const int old = v->id();
-      const bool is_old = 0 <= old && old < static_cast<int>(old_vertices.size()) && old_vertices[old] == v;
+      const bool is_old = 0 <= old && old < static_cast<int>(old_vertices.size()) && old_vertices[as_index(old)] == v;
       v->set_id(static_cast<int>(vertices_.size()));
       vertices_.push_back(v);
-      sizes_.push_back(is_old ? old_sizes[old] : target(v->point()));
-      asked_at_.push_back(is_old ? old_asked_at[old] : v->point());
+      old_ids.push_back(is_old ? old : -1);
     }
-    int id = static_cast<int>(vertices_.size());
-    for (const Vertex_handle v : frame_) v->set_id(id++);
+    targets_.renumber(vertices_, old_ids);
+    frame_.number_from(static_cast<int>(vertices_.size()));
     for (const Face_handle f : cdt_.finite_face_handles())
       if (f->is_in_domain()) faces_.push_back(f);
-    if (!uniform) known_sizes_.reserve(2 * faces_.size());
+    targets_.expect_questions(2 * faces_.size());
   }
 
   /// Numbers a vertex that was inserted since the last `renumber()`, at a place of its own or that of a removed one.
@@ -139,33 +124,19 @@ public:
   {
     const auto n = static_cast<std::size_t>(id);
     if (n == vertices_.size()) {
-      for (const Vertex_handle f : frame_) f->set_id(f->id() + 1);
+      frame_.number_from(id + 1);
       vertices_.emplace_back();
-      sizes_.emplace_back();
-      asked_at_.emplace_back();
     }
     v->set_id(id);
     vertices_[n] = v;
-    asked_at_[n] = v->point();
-    sizes_[n] = target(v->point());
+    targets_.set(n, v->point());
   }
 
-  bool is_frame(Vertex_handle v) const { return std::find(frame_.begin(), frame_.end(), v) != frame_.end(); }
+  bool is_frame(Vertex_handle v) const { return frame_.contains(v); }
 
   /// Largest edge length that the sizing field admits at a point.
   /// \throws Option_error if the sizing field returns anything but a positive finite number.
-  double size(const Point& p) const
-  {
-    const auto ask = [&] {
-      const double s = CGAL::to_double(sizing_(p));
-      if (!(s > 0) || !std::isfinite(s)) throw_bad_size(p, s);
-      return s;
-    };
-    if constexpr (uniform)
-      return ask();
-    else
-      return known_sizes_.get(CGAL::to_double(p.x()), CGAL::to_double(p.y()), ask);
-  }
+  double size(const Point& p) const { return targets_.size(p); }
 
   /// The same in the middle of a face.
   double size(Face_handle f) const
@@ -179,40 +150,20 @@ public:
   }
 
   /// Edge length to aim at: the sizing field, or less near details of the input, see `set_grading()`.
-  double target(const Point& p) const
-  {
-    const double s = size(p);
-    return grading_ ? CGAL::to_double(grading_->below(p, s)) : s;
-  }
+  double target(const Point& p) const { return targets_.target(p); }
 
   /// Target remembered for a vertex.
-  double target(Vertex_handle v) const { return sizes_[v->id()]; }
+  double target(Vertex_handle v) const { return targets_.target(v->id()); }
 
-  /// To be called after a vertex has moved. The field is asked again only when the vertex has gone some way since the
-  /// last time: targets change slowly, and relaxation moves vertices far more often than far.
-  void update_target(Vertex_handle v)
-  {
-    if (is_uniform()) return;
-    const double d2 = CGAL::to_double(CGAL::squared_distance(v->point(), asked_at_[v->id()]));
-    double& size = sizes_[v->id()];
-    if (d2 < 0.0025 * size * size) return;
-    size = target(v->point());
-    asked_at_[v->id()] = v->point();
-  }
+  /// To be called after a vertex has moved.
+  void update_target(Vertex_handle v) { targets_.update(v->id(), v->point()); }
 
   /// Whether targets are the same everywhere.
-  bool is_uniform() const { return uniform && !grading_; }
+  bool is_uniform() const { return targets_.is_uniform(); }
 
-  using Grading = Lipschitz_sizing_2<typename Cdt::Geom_traits>;
+  using Grading = typename Vertex_targets_2<Cdt, Sizing>::Grading;
   /// Makes targets smaller than the sizing field where `grading` is.
-  void set_grading(Grading grading)
-  {
-    grading_.emplace(std::move(grading));
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      asked_at_[i] = vertices_[i]->point();
-      sizes_[i] = target(asked_at_[i]);
-    }
-  }
+  void set_grading(Grading grading) { targets_.set_grading(std::move(grading), vertices_); }
 
   /// Longest edge of a face over the size at its centroid.
   double ratio(Face_handle f) const
@@ -239,7 +190,7 @@ public:
     const Vertex_handle a = f->vertex(Cdt::ccw(i)), b = f->vertex(Cdt::cw(i));
     if (a->constraint() >= 0) return a->constraint();
     if (b->constraint() >= 0) return b->constraint();
-    return chain_of_ends_.at(ends(a, b));
+    return chains_.between(a, b);
   }
 
   /// Inserts a point in the interior of a constrained edge, which it splits whatever rounding did to it.
@@ -252,7 +203,7 @@ public:
     const Vertex_handle a = f->vertex(Cdt::ccw(i)), b = f->vertex(Cdt::cw(i));
     if (!splits(p, f, i) || !splits(p, n, n->index(f))) return Vertex_handle();
     const int chain = chain_of(f, i);
-    if (!is_between(p, a->point(), b->point(), chain)) return Vertex_handle();
+    if (!chains_.is_between(p, a->point(), b->point(), chain)) return Vertex_handle();
     const bool left = f->is_in_domain(), right = n->is_in_domain();
     const Vertex_handle v = cdt_.insert(p, Cdt::EDGE, f, i);
     v->set_constraint(chain);
@@ -295,12 +246,8 @@ public:
   /// \returns whether that was possible; it always is, short of collinear neighbors.
   bool remove(Vertex_handle v)
   {
-    std::vector<Face_handle> hole;
-    if (!flip_down(v, 3, hole)) return restore_star(v);
-    hole.push_back(v->face());
-    merge_star(v, hole.back());
-    relocator_.restore_delaunay_of(hole);
-    return true;
+    const int id = v->id();
+    return forget_if(remover_.remove(v), id);
   }
 
   /// Ends of the edges of a Steiner vertex along its constraint; null handles if it hasn't two.
@@ -313,7 +260,7 @@ public:
     do {
       if (!cdt_.is_constrained(*edge)) continue;
       const Vertex_handle a = edge->first->vertex(Cdt::ccw(edge->second));
-      if (n < 2) result[n] = a == v ? edge->first->vertex(Cdt::cw(edge->second)) : a;
+      if (n < 2) result[as_index(n)] = a == v ? edge->first->vertex(Cdt::cw(edge->second)) : a;
       ++n;
     } while (++edge != done);
     return n == 2 ? result : std::array<Vertex_handle, 2>();
@@ -324,61 +271,28 @@ public:
   bool remove_from_constraint(Vertex_handle v)
   {
     const auto [a, b] = neighbors_on_constraint(v);
-    if (a == Vertex_handle()) return false;
-    const std::vector<Vertex_handle> link = link_of(v);
-    std::vector<Face_handle> ears;
-    if (!flip_down(v, 4, ears)) return restore_star(v);
-    Face_handle left, right; // of the edge from v to b
-    int i;
-    cdt_.is_edge(v, b, left, i);
-    if (left->vertex(Cdt::ccw(left->index(v))) != b) left = left->neighbor(i);
-    right = left->neighbor(Cdt::cw(left->index(v)));
-    const Vertex_handle l = left->vertex(Cdt::cw(left->index(v))), r = right->vertex(Cdt::ccw(right->index(v)));
-    const auto orientation = cdt_.geom_traits().orientation_2_object();
-    if (orientation(a->point(), b->point(), l->point()) != CGAL::LEFT_TURN ||
-        orientation(b->point(), a->point(), r->point()) != CGAL::LEFT_TURN)
-      return restore_star(v);
-    const bool right_inside = right->is_in_domain();
-    // Flipping the edge to l leaves v in a flat triangle with a and b, and with three neighbors.
-    cdt_.tds().flip(left, left->index(b));
-    merge_star(v, right);
-    right->set_in_domain(right_inside);
-    cdt_.is_edge(a, b, right, i);
-    const Face_handle other = right->neighbor(i);
-    right->set_constraint(i, true);
-    other->set_constraint(cdt_.mirror_index(right, i), true);
-    for (int k = 0; k < 3; ++k)
-      if (k != cdt_.mirror_index(right, i)) copy_constraint(other, k);
-    for (int k = 0; k < 3; ++k)
-      if (k != i) copy_constraint(right, k);
-    restore_delaunay_around(link);
-    return true;
+    const int id = v->id();
+    return a != Vertex_handle() && forget_if(remover_.remove_from_edge(v, a, b), id);
   }
 
   Relocator_2<Cdt>& relocator() { return relocator_; }
 
 private:
+  /// Leaves the number of a removed vertex to the next one; returns `removed`.
+  bool forget_if(bool removed, int id)
+  {
+    if (removed && id >= 0) vertices_[as_index(id)] = Vertex_handle();
+    return removed;
+  }
+
   /// Whether a vertex on a constraint lies between its neighbors there. Faces that keep their orientation don't ensure
   /// that where edges are a few units in the last place long and rounding bends the constraint.
   bool is_in_order(Vertex_handle v) const
   {
     if (v->constraint() < 0) return true;
     const auto [a, b] = neighbors_on_constraint(v);
-    return a == Vertex_handle() || is_between(v->point(), a->point(), b->point(), v->constraint());
+    return a == Vertex_handle() || chains_.is_between(v->point(), a->point(), b->point(), v->constraint());
   }
-
-  /// Whether p comes between a and b in the direction of a chain; exact.
-  bool is_between(const Point& p, const Point& a, const Point& b, int chain) const
-  {
-    const Point &source = chains_[chain].source->point(), &target = chains_[chain].target->point();
-    const typename Cdt::Geom_traits::Angle_2 angle;
-    const CGAL::Angle before = angle(a, p, source, target);
-    return before != CGAL::RIGHT && before == angle(p, b, source, target);
-  }
-
-  using Ends = std::pair<Vertex_handle, Vertex_handle>;
-
-  static Ends ends(Vertex_handle a, Vertex_handle b) { return a < b ? Ends(a, b) : Ends(b, a); }
 
   void check_coordinates()
   {
@@ -396,23 +310,6 @@ private:
       if (!cdt_.are_there_incident_constraints(v)) v->set_constraint(free_vertex);
   }
 
-  void add_frame()
-  {
-    const double d = 2 * (std::max)(bbox_.xmax() - bbox_.xmin(), bbox_.ymax() - bbox_.ymin());
-    const double x0 = bbox_.xmin() - d, x1 = bbox_.xmax() + d, y0 = bbox_.ymin() - d, y1 = bbox_.ymax() + d;
-    for (const Point& p : {Point(x0, y0), Point(x1, y0), Point(x1, y1), Point(x0, y1)}) {
-      frame_.push_back(cdt_.insert(p));
-      frame_.back()->set_constraint(fixed_vertex);
-    }
-    // Faces that insertion made lie outside of the old hull, so outside of the domain.
-    for (const Vertex_handle v : frame_) {
-      auto face = cdt_.incident_faces(v);
-      const auto done = face;
-      do face->set_in_domain(false);
-      while (++face != done);
-    }
-  }
-
   /// Whether the two faces that p makes of f by splitting edge i are positively oriented.
   bool splits(const Point& p, Face_handle f, int i) const
   {
@@ -423,88 +320,17 @@ private:
     return orientation(apex, a, p) == CGAL::LEFT_TURN && orientation(apex, p, b) == CGAL::LEFT_TURN;
   }
 
-  std::vector<Vertex_handle> link_of(Vertex_handle v) const
-  {
-    std::vector<Vertex_handle> link;
-    auto face = cdt_.incident_faces(v);
-    const auto done = face;
-    do link.push_back(face->vertex(Cdt::ccw(face->index(v))));
-    while (++face != done);
-    return link;
-  }
-
-  /// Flips unconstrained edges of v until it has no more than `degree` left. Each flip cuts an ear off the star, which
-  /// stays star-shaped around v. Appends the ears.
-  bool flip_down(Vertex_handle v, std::size_t degree, std::vector<Face_handle>& ears)
-  {
-    const auto orientation = cdt_.geom_traits().orientation_2_object();
-    while (cdt_.degree(v) > degree) {
-      auto face = cdt_.incident_faces(v);
-      const auto done = face;
-      bool flipped = false;
-      do {
-        const int i = face->index(v), left = Cdt::ccw(i); // the edge from v to the face's last vertex
-        Face_handle f = face;
-        const Face_handle next = f->neighbor(left);
-        if (f->is_constrained(left)) continue;
-        const auto &p = f->vertex(Cdt::ccw(i))->point(), &ear = f->vertex(Cdt::cw(i))->point(),
-                   &q = next->vertex(Cdt::cw(next->index(v)))->point();
-        flipped = orientation(p, ear, q) == CGAL::LEFT_TURN && orientation(p, q, v->point()) == CGAL::LEFT_TURN;
-        if (!flipped) continue;
-        cdt_.flip(f, left);
-        ears.push_back(f->has_vertex(v) ? next : f);
-      } while (!flipped && ++face != done);
-      if (!flipped) return false;
-    }
-    return true;
-  }
-
-  /// Makes one face of the three around v, and forgets v. The face's constraints are those of its neighbors.
-  void merge_star(Vertex_handle v, Face_handle f)
-  {
-    if (v->id() >= 0) vertices_[v->id()] = Vertex_handle();
-    cdt_.tds().remove_degree_3(v, f);
-    for (int i = 0; i < 3; ++i) copy_constraint(f, i);
-  }
-
-  void copy_constraint(Face_handle f, int i)
-  {
-    f->set_constraint(i, f->neighbor(i)->is_constrained(cdt_.mirror_index(f, i)));
-  }
-
-  bool restore_star(Vertex_handle v)
-  {
-    relocator_.restore_delaunay_around(v);
-    return false;
-  }
-
-  void restore_delaunay_around(const std::vector<Vertex_handle>& vertices)
-  {
-    for (const Vertex_handle w : vertices) relocator_.restore_delaunay_around(w);
-  }
-
-  [[noreturn]] static void throw_bad_size(const Point& p, double s)
-  {
-    std::ostringstream what;
-    what << "the sizing field returned " << s << " at (" << p << "); sizes must be positive and finite";
-    throw Option_error(what.str());
-  }
-
   Cdt& cdt_;
+  Frame_2<Cdt> frame_;
   Relocator_2<Cdt> relocator_;
-  const Sizing& sizing_;
+  Vertex_remover_2<Cdt> remover_;
+  Vertex_targets_2<Cdt, Sizing> targets_;
   CGAL::Bbox_2 bbox_;
   std::size_t input_vertices_ = 0;
   bool constraints_are_locked_ = false;
-  std::vector<Vertex_handle> frame_;
   std::vector<Vertex_handle> vertices_;
   std::vector<Face_handle> faces_;
-  std::vector<double> sizes_;   // targets at vertices
-  std::vector<Point> asked_at_; // where they were evaluated
-  mutable Size_memory known_sizes_;
-  std::optional<Grading> grading_;
-  std::vector<Chain> chains_;
-  std::map<Ends, int> chain_of_ends_; // only looked up, never iterated: addresses decide nothing
+  Constraint_chains_2<Cdt> chains_;
 };
 
 } // namespace weft::internal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The domain oracle of any model of CGAL's MeshDomain_3 or MeshDomainWithFeatures_3 (Tournois 2009, sec. 4.2.1.3):
-// implicit functions, labelled images, polyhedral domains and complexes, and what users have of their own. Such a
-// domain says in which subdomain a point lies and where it thinks that a segment meets its surface; the rest is worked
-// out by Domain_by_labels_3. A domain that shows its triangles isn't asked: their own hierarchy knows the same,
-// exactly, and the nearest point besides. Indices of subdomains, patches, curves and corners are numbered here, and
-// known again when a C3t3 is made.
+// implicit functions, labelled images, polyhedral domains and complexes, and those of users. Such a domain says in
+// which subdomain a point lies and where a segment meets its surface; Domain_by_labels_3 derives the rest. Domains that
+// show their triangles aren't asked: weft's hierarchy over these triangles gives the same answers, exactly, and the
+// nearest point besides. Indices of subdomains, patches, curves and corners get numbers here, and come back when a C3t3
+// is made.
 
 #ifndef WEFT_SPATIAL_CGAL_MESH_DOMAIN_ORACLE_3_H
 #define WEFT_SPATIAL_CGAL_MESH_DOMAIN_ORACLE_3_H
@@ -115,6 +115,8 @@ public:
     if (patches_.size() == 0)
       throw Domain_error("no point of the boundary was found: the domain is empty or too small", {}, {});
   }
+
+  explicit Mesh_domain_oracle_3(const Domain&& temporary, int seed_grid = 30) = delete;
 
   int label(const Point& p) const { return has_triangles_ ? surface_.subdomain(p) : label_by_domain(p); }
 

@@ -15,10 +15,8 @@ struct Approximation_multiples
   /// vertices and lies within 1.9 / 2.0 / 2.8 bounds of its surface (CGAL: 20228 and 3.3).
   static constexpr double tip = 1.5;
 
-  /// Points of ridges, between tips, and of sharp edges that aren't creases, may be that far from a facet. With 2.8
-  /// / 2.4 / 2.2 for ridges, elephant, dino, homer and armadillo lie within 2.4, 2.5, 2.6, 2.3 / 2.3, 2.2, 2.1, 1.7
-  /// / 2.1, 1.9, 2.1, 1.9 bounds of their surfaces for a thousandth (CGAL: 2.9, 4.0, 2.25, 3.3), the last with 2 % more
-  /// vertices than the first; 2.0 for sharp edges costs the elephant another 5 %.
+  /// Points of ridges, between tips, and of sharp edges that aren't creases, may be that far from a facet. Less for
+  /// ridges costs few vertices, less for sharp edges more.
   static constexpr double ridge = 2.2, sharp_edge = 2.5;
 
   /// Centers of facets and the middles of their sides may be that far from the surface. With 2 / 1.8 / 1.6 / 1.4 the

@@ -60,7 +60,7 @@ public:
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
     const double rounding = 1e-6 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
     farthest_ = {rounding * rounding, rounding * rounding}; // all that is seen on flat patches
-    // Most facets needn't be measured, once a far one is known: a quarter of the time.
+    // Most facets needn't be measured, once a far one is known.
     for (const int record : all.facets) farthest_.raise_to(deviation_.beyond(farthest_, facet(record)));
     farthest_.depth *= closer * closer;
     farthest_of_crease_ = rounding * rounding;
@@ -338,8 +338,7 @@ private:
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
   Squared_deviation_3 farthest_;   ///< that facets may be
   double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
-  /// For what lies between the samples of facets. With 0.9 the distance of homer rises by 15 % over a whole run as far
-  /// as it goes.
+  /// For what lies between the samples of facets.
   static constexpr double closer = 0.85;
 };
 

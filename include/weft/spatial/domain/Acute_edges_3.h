@@ -90,10 +90,8 @@ public:
   }
 
   /// Moves `p`, the center of a ball, to the nearest point of an acute edge if that is near: within 0.27 radii of one
-  /// of 60 degrees, the more the acuter, up to 0.8. Returns whether it is. Of constant reaches of 0.3 to 0.8 radii, and
-  /// others in proportion to 1 / angle, this leaves the fewest bad elements beside the knife edges of a dinosaur: none
-  /// at ten bounds from 0.0003 to 0.002 of its length; without it
-  /// five of nine had some.
+  /// of 60 degrees, the more the acuter, up to 0.8. Returns whether it is. Of the reaches tried this leaves the fewest
+  /// bad elements beside knife edges.
   bool attract(Point& p, double radius) const
   {
     const Point center = p;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What oracles answer that know nothing of folds, tips and acute edges of their boundary.
+// Base of domain oracles whose boundary has no folds, tips or acute edges: the members of the concept that are about
+// those.
 
 #ifndef WEFT_SPATIAL_DOMAIN_NO_FOLDS_3_H
 #define WEFT_SPATIAL_DOMAIN_NO_FOLDS_3_H

@@ -6,12 +6,9 @@
 // which triangle are decided by exact predicates, rays and segments that graze an edge or a vertex included; the points
 // are rounded to doubles and lie on the boundary up to that rounding.
 //
-// The hierarchies of boxes are weft's own because queries are most of the time of a mesher. Nanoseconds a query on one
-// thread, weft and CGAL 5.5's AABB tree, on the elephant surface of 5558 triangles (benchmark/oracle_throughput):
-// intersections of a segment across the bounding box 294 and 5181, of a short one near the surface 120 and 1165;
-// location near the surface 203 and 796; closest point anywhere 666 and 5236, near the surface 304 and 1962. The
-// hierarchy takes 2 to 3 ms to build, CGAL's 1 to 2. Floats and SSE2 rule out nearly everything; one to three triangles
-// of a query reach doubles or an exact predicate.
+// The hierarchies of boxes are weft's own because queries are most of the time of a mesher: they are 4 to 18 times as
+// fast as CGAL's AABB tree (benchmark/oracle_throughput). Floats and SSE2 rule out nearly everything; one to three
+// triangles of a query reach doubles or an exact predicate.
 
 #ifndef WEFT_SPATIAL_DOMAIN_POLYHEDRAL_ORACLE_3_H
 #define WEFT_SPATIAL_DOMAIN_POLYHEDRAL_ORACLE_3_H
@@ -24,6 +21,7 @@
 #include <weft/spatial/domain/Patched_surface_3.h>
 #include <weft/spatial/domain/Salient_features_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -44,7 +42,9 @@ namespace weft {
 template <class K>
 class Polyhedral_oracle_3
 {
-  static_assert(std::is_same<typename K::FT, double>::value, "the oracle's error bounds are those of doubles");
+  static_assert(std::is_same<typename K::FT, double>::value,
+                "weft: spatial meshes need a kernel with exact predicates and coordinates of type double, such as "
+                "CGAL::Exact_predicates_inexact_constructions_kernel");
 
 public:
   using Kernel = K;
@@ -69,7 +69,7 @@ public:
     salient_ = internal::Salient_features_3<K>(complex_, {fold_angle, ridge_angle, sharp_angle, 180 - acute_angle});
   }
 
-  /// From a surface, by `piecewise_smooth_complex(surface, options)`; include piecewise_smooth_complex.h for it.
+  /// From a surface, by `piecewise_smooth_complex(surface, options)`.
   /// \throws what that function throws.
   template <class Surface, class Options>
   Polyhedral_oracle_3(const Surface& surface, const Options& options)
@@ -195,10 +195,8 @@ public:
   }
 
 private:
-  // Degrees. Vertices for a thousandth, as parts of CGAL's, on average over six smooth and six creased models: with
-  // folds from 5 / 10 / 20 degrees on 0.92, 0.93, 0.96. Ridges from 30 degrees on instead of all folds save a quarter
-  // of the time on dense models, and vertices: 7912
-  // instead of 9402 on the elephant for 0.0005, with a tolerance of 2.5.
+  // Degrees. Flatter folds attract to fewer vertices. Measuring ridges alone instead of all folds saves time on dense
+  // models, and vertices.
   static constexpr double fold_angle = 5, ridge_angle = 30, sharp_angle = 75;
 
   static constexpr double acute_angle = 60; // degrees; from there on refinement ends by itself
@@ -210,7 +208,7 @@ private:
     std::vector<Triangle> all;
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
       Triangle triangle;
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         triangle.vertices[i] = static_cast<std::uint32_t>(complex_.triangles[t][i]);
         triangle.points[i] = complex_.points[triangle.vertices[i]];
       }

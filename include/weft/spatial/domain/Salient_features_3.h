@@ -2,9 +2,9 @@
 //
 // Where a polyhedral surface bends: its folds, which are edges with an angle that isn't large enough for a crease, and
 // the vertices at their ends. A Steiner point that may lie anywhere in some ball does most for the approximation if it
-// lies on one of them; facets then line up with the folds instead of cutting across. Not in the thesis: with it the
-// elephant of 5,558 triangles takes 4,362 vertices instead of 8,658 for the same bound of a thousandth, the dinosaur of
-// 7,828 takes 5,520 instead of 9,204; surfaces whose triangles are much smaller than the mesh's stay as they were.
+// lies on one of them; facets then line up with the folds instead of cutting across. Not in the thesis: coarse surfaces
+// take half to two thirds of the vertices with it; surfaces whose triangles are much smaller than the mesh's stay as
+// they were.
 
 #ifndef WEFT_SPATIAL_DOMAIN_SALIENT_FEATURES_3_H
 #define WEFT_SPATIAL_DOMAIN_SALIENT_FEATURES_3_H
@@ -70,8 +70,8 @@ public:
   bool empty() const { return folds_.empty(); }
 
   /// Moves `p` to a vertex of a fold within `vertex_reach`, else to a point of one within `fold_reach`, on the given
-  /// patch. Of several the one with the largest angle, less in proportion to its distance: 4 % fewer vertices on
-  /// average than with the nearest. Returns whether there was one.
+  /// patch. Of several the one with the largest angle, less in proportion to its distance: that takes fewer vertices
+  /// than the nearest. Returns whether there was one.
   bool attract(Point& p, double vertex_reach, double fold_reach, int patch) const
   {
     const Point center = p;

@@ -22,7 +22,7 @@ std::array<std::size_t, N> sorted(std::array<std::size_t, N> vertices)
 
 /// Corners of the facet opposite to corner i of a positively oriented cell, counterclockwise seen from outside the
 /// cell.
-constexpr std::array<std::array<int, 3>, 4> outward_facet = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+constexpr std::array<std::array<std::size_t, 3>, 4> outward_facet = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 /// A facet of a cell.
 struct Cell_facet_3

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether a tetrahedral mesh is what it claims to be: cells that meet facet to facet, positively oriented and locally
-// Delaunay; a boundary that is listed completely, looks outwards and is a closed 2-manifold; crease edges in chains;
-// vertices that agree with the facets and edges around them. Everything is recomputed from the cells, exact predicates
-// decide, and each check can be called alone. Whether the mesh meets criteria and lies on its domain is asked in
+// Whether a tetrahedral mesh is valid: cells that meet facet to facet, positively oriented and locally Delaunay; a
+// boundary that is listed completely, looks outwards and is a closed 2-manifold; crease edges in chains; vertices that
+// agree with the facets and edges around them. Everything is recomputed from the cells, exact predicates decide, and
+// each check can be called alone. Whether the mesh meets criteria and lies on its domain is asked in
 // check_criteria_3.h, how far it is from a surface in hausdorff_3.h.
 
 #ifndef WEFT_SPATIAL_MESH_VALIDATE_3_H

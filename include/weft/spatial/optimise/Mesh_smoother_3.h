@@ -120,7 +120,7 @@ private:
     Smoothing_context_3<Restricted, Sizing> context(mesh_, sizing_);
     context.measure(cells_, options_.threads);
     std::vector<std::optional<Point>> wanted(is_free.size());
-    // In the order of ids, which is that of refinement, this takes a fifth longer on bunny.
+    // In the order of ids, which is that of refinement, this takes longer.
     const std::vector<std::size_t>& order = mesh_.spatial_order();
     parallel_for(order.size(), options_.threads, [&](std::size_t k) {
       const std::size_t i = order[k];
@@ -222,8 +222,7 @@ private:
   }
 
   /// Moves that had to be shortened begin shorter in the next sweep. So do, a little, those of vertices that have
-  /// stayed since they would have turned cells over: cells below 15 degrees after 60 sweeps of elephant, homer, anchor
-  /// with 0.5, 0.7, 0.85 of the step are 124, 184, 121, then 144, 183, 133 and 127, 149, 129.
+  /// stayed since they would have turned cells over.
   void learn_steps()
   {
     auto stayed = stayed_.begin();

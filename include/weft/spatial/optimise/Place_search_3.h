@@ -63,8 +63,7 @@ public:
   ///
   /// As in Alg. 7 the gradients have their turn before chance, but only those steps that have mended more for their
   /// cost than chance has, the best first: late in a run gradients rarely help. On creases there are but two ways to
-  /// go; with directions there, anchor takes 1.15 times as long to 17 degrees, 1.05 times to 20. What random directions
-  /// alone take longer is in doc/measured_3d.md.
+  /// go: directions there only take time.
   const std::vector<Place>& places_for_move(const Target& target, const Point& origin, int trials, bool at_random)
   {
     target_ = target;
@@ -128,9 +127,8 @@ private:
                                       : &Perturb_report_3::by_volume;
   }
 
-  /// The unit vector of a direction, or of what a patch or crease leaves of it; zero if that is nothing. With
-  /// directions as they are, projected with the places that they lead to, combined ones gain less over random
-  /// ones: 1.08 instead of 1.13 times to 20 degrees on elephant, 1.07 instead of 1.12 on dino.
+  /// The unit vector of a direction, or of what a patch or crease leaves of it; zero if that is nothing. Most of a step
+  /// would be lost if only its end were projected.
   Vector possible_direction(const Point& p, Vector direction) const
   {
     const auto unit = [](const Vector& v) {
@@ -211,7 +209,7 @@ private:
     if (places_.size() > most_places) places_.resize(most_places);
   }
 
-  /// Random trials that directions play a part in: 24 are worse on elephant and dino, 10 on dino, homer and anchor.
+  /// Random trials that directions play a part in; more are worse.
   static constexpr int guided_trials = 6;
   static constexpr std::size_t most_places = 3;      ///< of the best, how many are tried for good
   static constexpr double cost_of_putting_back = 20; ///< in trials, with the guard's questions

@@ -187,8 +187,8 @@ private:
     }
   }
 
-  /// Whether the target would take three times all the trials so far at the pace of the latter half of them. The narrow
-  /// walls of turbine's holes leave no room: from 18.0 degrees on it gains 0.15 in 20 of 27 s.
+  /// Whether the target would take three times all the trials so far at the pace of the latter half of them. Narrow
+  /// walls, for instance, leave no room.
   bool is_out_of_reach() const
   {
     const std::size_t first = course_.front().first;
@@ -203,8 +203,7 @@ private:
   static constexpr int insertion_trials = 200;
   static constexpr std::size_t patience = 200000; ///< trials
   static constexpr int most_idle = 40;            ///< passes that leave the worst cell as it is
-  // Smallest angle of elephant and dino after 8 s: batches of 10 and vertices / 400: 27.8, 25.6; of 30 and / 100: 28.7,
-  // 26.5; of 60 and / 50: 28.0, 27.0.
+  // Smallest angles rise fastest with batches of about this size.
   static constexpr std::size_t least_batch = 40, batch_divisor = 80;
   static constexpr std::size_t very_worst = 3; ///< these are worked on ever harder
 

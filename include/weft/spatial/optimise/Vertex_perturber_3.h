@@ -240,8 +240,7 @@ private:
   }
 
   /// Where a vertex near a cell may lie: inside, on the patches and on the creases of its vertices and facets. A facet
-  /// between two creases may have no vertex on its patch: on the narrow walls of turbine's holes, that ended all
-  /// at 18.1 degrees.
+  /// between two creases may have no vertex on its patch.
   std::vector<Vertex_location_3> locations_around(Cell_handle c) const
   {
     std::vector<Vertex_location_3> all = {{3, c->subdomain()}};

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Takes away vertices that no criterion needs: the removal half of a pliant mesher (Bossen, Heckbert 1996), which
-// Tournois 2009, sec. 4.1, wishes for. Greedy refinement can't take back what it inserted before it knew better; with
-// criteria that hold, every vertex is tried, the most crowded first, and stays if what would fill its place violated
-// one.
+// Removes vertices that no criterion needs, as pliant meshers do (Bossen, Heckbert 1996); proposed in Tournois 2009,
+// sec. 4.1. Refinement never removes what it has inserted. When the criteria hold, every vertex is tried, the most
+// crowded first; it stays if the cells and facets that would fill its place violate a criterion.
 
 #ifndef WEFT_SPATIAL_OPTIMISE_COARSEN_3_H
 #define WEFT_SPATIAL_OPTIMISE_COARSEN_3_H

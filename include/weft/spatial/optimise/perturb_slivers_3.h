@@ -3,11 +3,11 @@
 // Sliver removal by perturbing vertices (Tournois 2009, sec. 3.2.2, Alg. 7; Tournois, Srinivasan, Alliez, "Perturbing
 // slivers in 3D Delaunay meshes", 2009): a vertex of a sliver moves along the gradient of the squared circumradius, or
 // down that of the volume, or somewhere at random, so that the Delaunay triangulation flips the sliver away. A move is
-// kept if the worst of all cells made is better than the worst of all cells unmade, the boundary stays a surface and no
+// kept if the worst new cell is better than the worst cell that it replaces, the boundary stays a surface and no
 // criterion is violated that held: the smallest dihedral angle of the mesh never falls.
 //
-// Bounds rise over the whole mesh first, which is fast, then the worst few cells are worked on with all means again and
-// again: what the smallest angle of a mesh hangs on is a handful of cells.
+// Bounds rise over the whole mesh first, which is fast. Then only the worst few cells are worked on, since they
+// determine the smallest angle of the mesh.
 
 #ifndef WEFT_SPATIAL_OPTIMISE_PERTURB_SLIVERS_3_H
 #define WEFT_SPATIAL_OPTIMISE_PERTURB_SLIVERS_3_H

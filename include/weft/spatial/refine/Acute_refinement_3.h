@@ -120,7 +120,7 @@ private:
     const Zone_result result = batch_.find_near(image.point, f);
     if (result != Zone_result::found) return batch_.failure(result);
     const double apart = CGAL::to_double(CGAL::squared_distance(Measure::vertex(f, across)->point(), image.point));
-    // Pairs that all but exist: of 0.05 to 0.25, 0.15 leaves the fewest bad elements beside knife edges.
+    // Pairs that all but exist; this leaves the fewest bad elements beside knife edges.
     if (batch_.chooser().nearest_in(batch_.zone()) < (std::max)(batch_.squared_topology_floor(), 0.15 * 0.15 * apart))
       return Choice_3::impossible;
     if (const Crease_edge* e = batch_.encroached_edge()) return choose(*e, false);

@@ -164,8 +164,7 @@ public:
 
 private:
   /// When no facet is bad by what its axis meets, or nothing can be done about it, those that are new: their centers
-  /// and the middles of their sides may be far from the surface. On the bear for 0.001 that brings its distance
-  /// from 2.3 bounds to 1.5 with 0.3 % more vertices (CGAL: 2.0).
+  /// and the middles of their sides may be far from the surface.
   void look_again()
   {
     if constexpr (!Restricted::Oracle::labels_first) {

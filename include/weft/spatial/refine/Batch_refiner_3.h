@@ -93,8 +93,7 @@ public:
   }
 
   /// To be called when nothing was inserted last: another refiner needn't look at facets and vertices again that are
-  /// good and stay. On the armadillo, looking at all of them takes 5 % of refinement each time. \returns the version of
-  /// the mesh; what is bad counts as changed in it.
+  /// good and stay. \returns the version of the mesh; what is bad counts as changed in it.
   int settle()
   {
     bad_.set_changed();
@@ -243,9 +242,8 @@ private:
     }
   }
 
-  /// Cells tried in vain that end a batch, beside those for each of its vertices. In a wedge of one degree a batch
-  /// would try 8000 to insert four, and refinement take 25 s instead of 7; elsewhere it is mostly far fewer (armadillo:
-  /// 16 for each).
+  /// Cells tried in vain that end a batch, beside those for each of its vertices. In sharp wedges a batch would try
+  /// thousands to insert a few; elsewhere it is mostly far fewer.
   static constexpr std::size_t in_vain_at_least = 200, in_vain_for_each = 100;
 
   static constexpr std::size_t choices = 20; // Tournois 2009, sec. 3.2.1.4

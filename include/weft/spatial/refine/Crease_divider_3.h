@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // How many vertices a crease needs by itself, and where to start. Tournois 2009, sec. 3.2.1.3 starts from the feature
-// vertices; refinement then halves what is too long, so that a circle
-// which 36 edges would do for gets 48. Here a
-// crease is cut into equal parts at once where that takes fewer of them than halving would.
+// vertices; refinement then halves what is too long, which takes up to twice as many. Here a crease is cut into equal
+// parts at once where that takes fewer of them than halving would.
 
 #ifndef WEFT_SPATIAL_REFINE_CREASE_DIVIDER_3_H
 #define WEFT_SPATIAL_REFINE_CREASE_DIVIDER_3_H

@@ -6,9 +6,6 @@
 // the surface Delaunay ball that it enters has to be split first. Here a few points near by are tried by their conflict
 // zones, and the one that removes the most bad elements net of those that it makes is taken. It keeps a distance from
 // all vertices that still bounds their number.
-//
-// What that saves in vertices at the same criteria, against circumcenters and farthest points alone, on the 32 inputs
-// of `benchmark/run_3d`: 11 % on average, 24 % at most (cylinder, 0.0005).
 
 #ifndef WEFT_SPATIAL_REFINE_STEINER_CHOOSER_3_H
 #define WEFT_SPATIAL_REFINE_STEINER_CHOOSER_3_H
@@ -84,7 +81,7 @@ public:
     for (const Point& p : points_) {
       if (p != f.steiner && squared(p, f.steiner) >= 0.96 * f.squared_radius) continue; // the facet might survive
       const Zone_result result = find(p, f, batch, zone);
-      if (result == Zone_result::claimed) return result; // next time, rather than less well: 10 % fewer on a cylinder
+      if (result == Zone_result::claimed) return result; // next time, rather than less well
       if (result != Zone_result::found) continue;
       const double nearest = nearest_in(zone);
       if (p != f.steiner && nearest < (std::max)(squared_floor_, least_distance * least_distance * f.squared_radius))

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // What it takes to refine a part of a mesh once more from fewer vertices. Beside acute edges that nobody marked,
-// whether refinement comes to an end is luck: the same dinosaur, whose knife edges of 23 degrees stand a thousandth of
-// its length apart, meets all criteria in one run and keeps some bad elements in another, for an approximation a tenth
-// finer. What went wrong there stays, since refinement takes nothing back.
+// whether refinement comes to an end is luck. What went wrong there stays, since refinement takes nothing back.
 
 #ifndef WEFT_SPATIAL_REFINE_VERTEX_SET_3_H
 #define WEFT_SPATIAL_REFINE_VERTEX_SET_3_H

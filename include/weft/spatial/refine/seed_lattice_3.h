@@ -44,7 +44,7 @@ std::vector<typename Oracle::Kernel::Point_3> interior_lattice(const Oracle& ora
         const Point p(x0 + (i + shift) * spacing, y0 + (j + shift) * spacing, z0 + 0.5 * k * spacing);
         if (oracle.is_clear(p, clearance) && oracle.subdomain(p) != 0) points.push_back(p);
       }
-  // Row by row, each point would see half of the surface: 23 s instead of 3 for 350,000 points.
+  // Row by row, each point would see half of the surface.
   CGAL::spatial_sort(points.begin(), points.end());
   return points;
 }

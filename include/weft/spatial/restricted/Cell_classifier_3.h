@@ -15,6 +15,7 @@
 #define WEFT_SPATIAL_RESTRICTED_CELL_CLASSIFIER_3_H
 
 #include <weft/internal/parallel_for.h>
+#include <weft/spatial/domain/oracle_hits_3.h>
 #include <weft/spatial/mesh/circumcenter_3.h>
 
 #include <CGAL/number_utils.h>
@@ -56,7 +57,7 @@ class Cell_classifier_3
 public:
   using Kernel = typename Oracle::Kernel;
   using Point = typename Kernel::Point_3;
-  using Surface_hit = decltype(std::declval<const Oracle&>().closest(std::declval<const Point&>()));
+  using Surface_hit = Surface_hit_3<Kernel>;
   using Cell_handle = typename Triangulation::Cell_handle;
   using Restricted_facet = Restricted_facet_3<Triangulation>;
 
@@ -90,7 +91,7 @@ private:
   static constexpr std::size_t block_size = 256;  ///< edges whose facets are collected together
   static constexpr std::size_t most_kept = 10000; ///< cells for which memory is kept
 
-  /// Most calls are about some dozens of cells; what the first one took, about all, was 0.6 of what the cells take.
+  /// Most calls are about some dozens of cells, but the first one is about all.
   void release_memory()
   {
     const auto release = [](auto&... vectors) { (std::decay_t<decltype(vectors)>().swap(vectors), ...); };

@@ -297,8 +297,8 @@ private:
     e.is_tangled |= !is_new;
   }
 
-  /// Where an edge stands in a list, see `list_of()`: after every local change the lists are made anew, which with a
-  /// hash table took a tenth of a run on the turbine.
+  /// Where an edge stands in a list, see `list_of()`: after every local change the lists are made anew, for which a
+  /// hash table is too slow.
   struct Link
   {
     std::size_t list;

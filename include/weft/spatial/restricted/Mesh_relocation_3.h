@@ -138,11 +138,10 @@ private:
     return mesh_.tr_->number_of_vertices() == points.size() + 8;
   }
 
-  /// Part of the vertices to move one by one rather than to build anew. A vertex takes 40 us by itself and 3 us in a
-  /// new triangulation, which flips needn't then have mended.
+  /// Part of the vertices to move one by one rather than to build anew: a vertex by itself takes more than ten times as
+  /// long as in a new triangulation.
   static constexpr double most_alone = 0.05;
-  /// The same where those vertices may as well stay. A first sweep of smoothing leaves 12 to 23 per cent of them; its
-  /// flips, 1.3 a vertex, take half as long as building anew.
+  /// The same where those vertices may as well stay: flips then take less time than building anew.
   static constexpr double most_staying = 0.5;
 
   Restricted& mesh_;
@@ -163,9 +162,8 @@ Relocation_counts_3 relocate(Restricted& mesh, const std::vector<int>& ids,
   return Mesh_relocation_3<Restricted>(mesh).relocate(ids, targets, stayed);
 }
 
-/// Copies the triangulation to where vertices and cells lie in memory in the spatial order, after refinement has
-/// strewn them. Handles don't survive, ids do. Takes 0.10 to 0.18 of the time of building it; a first sweep of
-/// smoothing then takes a fifth less.
+/// Copies the triangulation to where vertices and cells lie in memory in the spatial order, after refinement has strewn
+/// them. Handles don't survive, ids do. It pays before the first sweep of smoothing.
 template <class Restricted>
 void sort_in_memory(Restricted& mesh)
 {

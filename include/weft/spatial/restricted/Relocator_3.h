@@ -168,7 +168,7 @@ private:
   }
 
   /// Of each inverted cell one vertex goes back, if that of any is enough, else all that moved; which may turn over
-  /// cells around it. Putting all of them back at once leaves 2.5 times as many to be moved one by one.
+  /// cells around it. Putting all of them back at once leaves more to be moved one by one.
   void put_back_inverted(const std::vector<Vertex_handle>& vertices, std::vector<std::size_t>& deferred)
   {
     deferred.clear();

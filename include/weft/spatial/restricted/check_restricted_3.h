@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether a restricted Delaunay triangulation is what it would be if nothing of it were kept up to date (Tournois 2009,
-// sec. 1.1 and 3.2.1.4): every label, Voronoi edge and Voronoi facet is put to the oracle again and compared with what
-// is kept.
+// Whether what a restricted Delaunay triangulation keeps agrees with its domain (Tournois 2009, sec. 1.1 and 3.2.1.4):
+// every label, Voronoi edge and Voronoi facet is put to the oracle again and compared.
 //
 // Points are rounded, so not everything can be compared exactly.
 //  - Which side of the boundary a circumcenter lies on, and how often and on which patches a Voronoi edge meets the

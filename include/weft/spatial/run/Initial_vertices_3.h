@@ -55,8 +55,8 @@ std::vector<typename Restricted::Point> insert_boundary(const Initial_vertices_3
 }
 
 /// Inserts those interior vertices that lie in the domain, as few don't where cells are inverted, and don't end up on
-/// the boundary. Otherwise refinement has to surround them with vertices on the surface: 5000 instead of 2900 on the
-/// elephant as Netgen leaves it unoptimised. \returns how many were left out.
+/// the boundary. Otherwise refinement has to surround them with vertices on the surface. \returns how many were left
+/// out.
 template <class Restricted>
 std::size_t insert_interior(std::vector<typename Restricted::Point> points,
                             const Criteria_3<typename Restricted::Kernel>& criteria, Restricted& mesh)

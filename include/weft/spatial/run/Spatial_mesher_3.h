@@ -132,12 +132,10 @@ private:
     mesh_.insert(points, subdomains);
   }
 
-  /// Interleaves what Alg. 5 does, in another order: smoothing the coarse mesh and refining it then, as there,
-  /// takes 1.9 times the vertices on the elephant, since it moves vertices away from the folds that attracted them.
-  /// Criteria come first, then vertices are taken away as long as they hold, and smoothing, which keeps them too, makes
-  /// room for more of that: 4362, 3587 and 3229 vertices. What couldn't be refined before stays as it is: on none of 7
-  /// noisy scans and 300 damaged surfaces another refinement mended the last of it, and at the acute edges of a scan
-  /// (femur) it made 285 bad elements of 9.
+  /// Interleaves what Alg. 5 does, in another order: smoothing the coarse mesh and refining it then, as there, takes
+  /// more vertices, since it moves vertices away from the folds that attracted them. Criteria come first, then vertices
+  /// are taken away as long as they hold, and smoothing, which keeps them too, makes room for more of that. What
+  /// couldn't be refined before stays as it is: another refinement mends nothing there, and may make more bad elements.
   bool coarsen_and_smooth()
   {
     if (!options_.coarsen && options_.smoothing_sweeps == 0) return true;
@@ -159,7 +157,7 @@ private:
     return refinement_.refine(1, true);
   }
 
-  /// Watches all that comes after refinement: one for each stage took a fifth of a run.
+  /// Watches all that comes after refinement: one for each stage would take too long.
   Criteria_guard_3<Restricted>& guard()
   {
     if (!guard_) guard_.emplace(mesh_, criteria_);
@@ -238,9 +236,7 @@ private:
     if (options_.min_dihedral_angle < Perturb_options_3::as_far_as_it_goes) run_.may_go_on();
   }
 
-  // On nested spheres with sizes of a twentieth, vertices with the lattice kept 1 / 0.8 / 0.6 / 0.5 / 0.4 spacings from
-  // the boundary: 16994, 15973, 14779, 14593, 14432, all before Steiner points were chosen; 0.3 and 0.4 then: 13621 and
-  // 13630.
+  // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
   static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.3;
 
   const Oracle& oracle_;

@@ -38,10 +38,7 @@ namespace weft::internal {
 
 /// What meshing is held to: loose sizes, an approximation that follows the boundary's own edges, and shapes as long as
 /// only a few elements are worse, for nothing that comes later mends what those leave. Smoothing mends most of them, so
-/// that `mesh_from_vertices()` asks for more afterwards. Vertices and smallest angles of TetGen's anchor, Gmsh's dino
-/// and a ball with vertices at random, 10119, 7402 and 1000 before: without shapes 10947 and 4.2 degrees, 8093 and 6.9,
-/// 964 and 28; 2 for facets and 3 for cells at once 13319 and 28, 8518 and 26.3, 1351 and 18; these afterwards only
-/// 12856 and 28, 8315 and 12.6, 1007 and 28; first 4 and 6, then 1.7 and 2.5: 11917 and 28, 8398 and 27.6, 1068 and 28.
+/// that `mesh_from_vertices()` asks for more afterwards.
 template <class K>
 Criteria_3<K> criteria_of_mesh(const Tetrahedral_mesh_3<K>& mesh, const Boundary_sizing_3<K>& sizing,
                                const Improve_options_3& options)
@@ -58,7 +55,7 @@ Criteria_3<K> criteria_of_mesh(const Tetrahedral_mesh_3<K>& mesh, const Boundary
   criteria.deviation = deviation;
   criteria.facet_shape = 4;
   criteria.cell_shape = 6;
-  criteria.topology = criteria.manifold = true;
+  criteria.topology = true;
   return criteria;
 }
 

@@ -29,8 +29,8 @@ struct Feature_options
   double cusp_angle = 60;
 
   /// Creases found by angle that end without meeting another one aren't creases if they are shorter than this, in parts
-  /// of the bounding box' diagonal; 0: all are. In scanned surfaces they are noise. Those of parts are longer: rotor
-  /// and anchor_dense, which CGAL comes with, have some of 0.46 and 0.25.
+  /// of the bounding box' diagonal; 0: all are. In scanned surfaces they are noise; those of machine parts are much
+  /// longer.
   double least_open_crease = 0.02;
 
   /// Edges that are sharp whatever their angle: pairs of points.

@@ -39,8 +39,8 @@ namespace internal {
 /// Holes with more border edges than this stay open: filling them takes cubic time and is guesswork.
 constexpr std::size_t longest_hole_to_fill = 100;
 
-/// Where more facets intersect, they stay as they are. CGAL's removal, which can't be interrupted, takes up to 7 ms for
-/// each (14 s for 2013 facets). Of the models tried, those that came out well had 4 to 320 of them.
+/// Where more facets intersect, they stay as they are: CGAL's removal can't be interrupted, and mends surfaces with few
+/// of them only.
 constexpr std::size_t most_facets_to_mend = 1000;
 
 using Repair_log = std::vector<std::string>;
