@@ -9,7 +9,7 @@
 #define WEFT_PLANAR_MESH_ASSEMBLE_MESH_2_H
 
 #include <weft/errors.h>
-#include <weft/internal/Mesh_assembler.h>
+#include <weft/internal/run/Mesh_assembler.h>
 #include <weft/planar/mesh/Element_soup_2.h>
 
 #include <CGAL/Kernel/global_functions.h>

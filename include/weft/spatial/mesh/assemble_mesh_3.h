@@ -9,7 +9,7 @@
 #define WEFT_SPATIAL_MESH_ASSEMBLE_MESH_3_H
 
 #include <weft/errors.h>
-#include <weft/internal/Mesh_assembler.h>
+#include <weft/internal/run/Mesh_assembler.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
 #include <weft/spatial/mesh/Element_soup_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>

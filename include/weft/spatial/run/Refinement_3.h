@@ -6,7 +6,7 @@
 #ifndef WEFT_SPATIAL_RUN_REFINEMENT_3_H
 #define WEFT_SPATIAL_RUN_REFINEMENT_3_H
 
-#include <weft/internal/Run.h>
+#include <weft/internal/run/Run.h>
 #include <weft/options.h>
 #include <weft/report.h>
 #include <weft/spatial/criteria/Approximation_multiples.h>

@@ -3,8 +3,8 @@
 // What assembling a mesh from elements of any origin has in common in the plane and in space: indices that exist, no
 // element twice, points of no element left out, elements oriented alike; and the sentences about what is wrong.
 
-#ifndef WEFT_INTERNAL_MESH_ASSEMBLER_H
-#define WEFT_INTERNAL_MESH_ASSEMBLER_H
+#ifndef WEFT_INTERNAL_RUN_MESH_ASSEMBLER_H
+#define WEFT_INTERNAL_RUN_MESH_ASSEMBLER_H
 
 #include <weft/errors.h>
 #include <weft/internal/counted.h>
@@ -196,4 +196,4 @@ private:
 
 } // namespace weft::internal
 
-#endif // WEFT_INTERNAL_MESH_ASSEMBLER_H
+#endif // WEFT_INTERNAL_RUN_MESH_ASSEMBLER_H
