@@ -8,19 +8,17 @@
 
 namespace weft::internal {
 
-/// All of them, with what was measured.
+/// All of them; what was measured for each is in doc/measured_3d.md.
 struct Approximation_multiples
 {
-  /// Tips of the surface may stick out of a facet that far. With 1 / 1.5 / 2 the armadillo takes 20912 / 18729 / 18338
-  /// vertices and lies within 1.9 / 2.0 / 2.8 bounds of its surface (CGAL: 20228 and 3.3).
+  /// Tips of the surface may stick out of a facet that far: less costs vertices, more distance.
   static constexpr double tip = 1.5;
 
   /// Points of ridges, between tips, and of sharp edges that aren't creases, may be that far from a facet. Less for
   /// ridges costs few vertices, less for sharp edges more.
   static constexpr double ridge = 2.2, sharp_edge = 2.5;
 
-  /// Centers of facets and the middles of their sides may be that far from the surface. With 2 / 1.8 / 1.6 / 1.4 the
-  /// bear's distance is 1.8, 1.7, 1.5, 1.5 bounds, 0.1 to 1 % more vertices for each step.
+  /// Centers of facets and the middles of their sides may be that far from the surface.
   static constexpr double facet = 1.6;
 
   /// A vertex that far from every triangle of its neighbours isn't tried by coarsening: the facets that would fill its

@@ -15,6 +15,7 @@
 #include <weft/spatial/optimise/sliver_gradients_3.h>
 #include <weft/spatial/restricted/Vertex_transaction_3.h>
 
+#include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
