@@ -7,8 +7,8 @@
 #include "concepts/mesh_bases.h"
 #include "concepts/SizingField.h"
 #include "concepts/Smoother_3.h"
-#include "meshing_fixtures_3.h"
-#include "surface_fixtures.h"
+#include "fixtures/meshing_fixtures_3.h"
+#include "fixtures/surface_fixtures.h"
 
 #include <weft/make_mesh_2.h>
 #include <weft/make_mesh_3.h>

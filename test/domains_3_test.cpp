@@ -2,7 +2,7 @@
 //
 // Domains that aren't one closed surface: implicit functions, labellings, labelled images, several surfaces.
 
-#include "meshing_fixtures_3.h"
+#include "fixtures/meshing_fixtures_3.h"
 
 #include <weft/spatial/Implicit_oracle_3.h>
 #include <weft/spatial/Label_image_3.h>

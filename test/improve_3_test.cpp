@@ -3,7 +3,7 @@
 // Properties of improving tetrahedral meshes that there are: what slides stays on the surface, what is fixed stays to
 // the last bit, nothing gets worse, slivers and inverted cells go.
 
-#include "spatial_fixtures.h"
+#include "fixtures/spatial_fixtures.h"
 
 #include <weft/IO/read_tetrahedral_mesh.h>
 #include <weft/IO/write_mesh_3.h>

@@ -4,7 +4,7 @@
 // reproducible bit for bit, budgets and failing fields leave valid meshes, and neither place nor order of the input
 // matter much.
 
-#include "planar_fixtures.h"
+#include "fixtures/planar_fixtures.h"
 
 #include <weft/IO/read_pslg.h>
 #include <weft/make_mesh_2.h>
