@@ -12,9 +12,10 @@ set(group_triangulation_3 CGAL/Exact_predicates_inexact_constructions_kernel.h C
 set(group_triangulation_2 CGAL/Exact_predicates_inexact_constructions_kernel.h
   CGAL/Constrained_Delaunay_triangulation_2.h)
 set(group_kernel CGAL/Exact_predicates_inexact_constructions_kernel.h)
+set(group_rationals CGAL/number_utils.h CGAL/Exact_rational.h)
 set(group_functions CGAL/number_utils.h CGAL/Kernel/global_functions.h)
 set(group_numbers CGAL/number_utils.h)
-set(groups triangulation_3 triangulation_2 kernel functions numbers) # the first that fits is taken
+set(groups triangulation_3 triangulation_2 kernel rationals functions numbers) # the first that fits is taken
 
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/weft/*.h)
 list(SORT headers)

@@ -4,7 +4,7 @@
 // reproducible bit for bit, budgets and failing fields leave valid meshes, and neither place nor order of the input
 // matter much.
 
-#include "fixtures/planar_fixtures.h"
+#include "fixtures/meshing_2.h"
 
 #include <weft/IO/read_pslg.h>
 #include <weft/make_mesh_2.h>
@@ -21,7 +21,6 @@ namespace {
 using namespace planar;
 using weft::Mesh_options_2;
 using weft::Mesh_report_2;
-using Uniform = weft::Uniform_sizing<>;
 
 struct Named_field
 {

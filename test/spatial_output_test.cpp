@@ -3,6 +3,7 @@
 // Properties of what comes after the spatial mesher: the writers lose nothing, the measures agree with closed forms,
 // and the checkers find every fault that is planted.
 
+#include "fixtures/checks_3.h"
 #include "fixtures/spatial_fixtures.h"
 
 #include <weft/errors.h>
