@@ -2,18 +2,10 @@
 //
 // CGAL's own mesh domains and criteria: implicit, image, polyhedral with features, polyhedral complex.
 
-#include <weft/make_c3t3.h>
+#include "fixtures/cgal_domains.h"
 
 #include <CGAL/boost/graph/copy_face_graph.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Image_3.h>
-#include <CGAL/Labeled_mesh_domain_3.h>
-#include <CGAL/make_mesh_3.h>
-#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
-#include <CGAL/Mesh_criteria_3.h>
-#include <CGAL/Mesh_polyhedron_3.h>
-#include <CGAL/Mesh_triangulation_3.h>
-#include <CGAL/Polyhedral_complex_mesh_domain_3.h>
 #include <CGAL/Polyhedral_mesh_domain_3.h>
 #include <CGAL/Random.h>
 #include <CGAL/Surface_mesh.h>
@@ -33,22 +25,7 @@
 namespace {
 
 namespace parameters = CGAL::parameters;
-using K = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = K::Point_3;
-
-// One type for implicit functions and images.
-using Labeled_domain = CGAL::Labeled_mesh_domain_3<K>;
-using Labeled_tr = CGAL::Mesh_triangulation_3<Labeled_domain>::type;
-using Labeled_c3t3 = CGAL::Mesh_complex_3_in_triangulation_3<Labeled_tr>;
-using Labeled_criteria = CGAL::Mesh_criteria_3<Labeled_tr>;
-
-// A polyhedral complex has features.
-using Polyhedron = CGAL::Mesh_polyhedron_3<K>::type;
-using Complex_domain = CGAL::Polyhedral_complex_mesh_domain_3<K>;
-using Complex_tr = CGAL::Mesh_triangulation_3<Complex_domain>::type;
-using Complex_c3t3 =
-    CGAL::Mesh_complex_3_in_triangulation_3<Complex_tr, Complex_domain::Corner_index, Complex_domain::Curve_index>;
-using Complex_criteria = CGAL::Mesh_criteria_3<Complex_tr>;
+using namespace cgal_domains;
 
 using Surface = CGAL::Surface_mesh<Point>;
 

@@ -2,13 +2,9 @@
 //
 // Domains that aren't one closed surface: implicit functions, labellings, labelled images, several surfaces.
 
+#include "fixtures/domains_3.h"
 #include "fixtures/meshing_fixtures_3.h"
 
-#include <weft/spatial/Implicit_oracle_3.h>
-#include <weft/spatial/Label_image_3.h>
-#include <weft/spatial/merge_surfaces_3.h>
-
-#include <functional>
 #include <map>
 #include <random>
 
@@ -17,10 +13,9 @@ namespace {
 using meshing::K;
 using meshing::Mesh;
 using meshing::Point;
-using Function = std::function<double(const Point&)>;
-using Labelling = std::function<int(const Point&)>;
-using Implicit = weft::Implicit_oracle_3<K, Function>;
-using Labelled = weft::Labelled_oracle_3<K, Labelling>;
+using domains::Implicit;
+using domains::Labelled;
+using domains::Labelling;
 
 const double pi = std::acos(-1.0);
 
