@@ -8,9 +8,8 @@
 # compiled after a group only if it includes every header of the group, itself or through headers of weft (which are
 # tested in the same way). So the group gives it nothing that it doesn't ask for. Other headers are compiled after none.
 
-set(group_triangulation_3 CGAL/Exact_predicates_inexact_constructions_kernel.h CGAL/Delaunay_triangulation_3.h)
-set(group_triangulation_2 CGAL/Exact_predicates_inexact_constructions_kernel.h
-  CGAL/Constrained_Delaunay_triangulation_2.h)
+set(group_triangulation_3 ${weft_triangulation_3_headers})
+set(group_triangulation_2 ${weft_triangulation_2_headers})
 set(group_kernel CGAL/Exact_predicates_inexact_constructions_kernel.h)
 set(group_rationals CGAL/number_utils.h CGAL/Exact_rational.h)
 set(group_functions CGAL/number_utils.h CGAL/Kernel/global_functions.h)
@@ -72,8 +71,10 @@ foreach(group IN LISTS groups ITEMS none)
   add_library(headers_after_${group} OBJECT EXCLUDE_FROM_ALL ${sources_${group}})
   target_link_libraries(headers_after_${group} PRIVATE weft::weft weft_warnings)
   target_compile_options(headers_after_${group} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0;-g0;-Werror>)
-  list(TRANSFORM group_${group} REPLACE "^(.+)$" "<\\1>" OUTPUT_VARIABLE precompiled)
-  if(precompiled)
+  if(group MATCHES "^triangulation_(.)$")
+    target_precompile_headers(headers_after_${group} REUSE_FROM weft_precompiled_${CMAKE_MATCH_1})
+  elseif(group_${group})
+    list(TRANSFORM group_${group} REPLACE "^(.+)$" "<\\1>" OUTPUT_VARIABLE precompiled)
     target_precompile_headers(headers_after_${group} PRIVATE ${precompiled})
   endif()
   add_dependencies(headers_alone headers_after_${group})
@@ -94,7 +95,7 @@ foreach(target headers_alone link_twice)
   add_test(NAME ${target}_builds
     COMMAND ${CMAKE_COMMAND} --build ${PROJECT_BINARY_DIR} --config $<CONFIG> --target ${target})
   set_tests_properties(${target}_builds PROPERTIES
-    LABELS headers RESOURCE_LOCK weft_build_tree PROCESSORS ${processors} TIMEOUT 1800)
+    LABELS headers RESOURCE_LOCK weft_build_tree PROCESSORS ${processors} COST 1000 TIMEOUT 1800)
 endforeach()
 set_tests_properties(link_twice_builds PROPERTIES FIXTURES_SETUP link_twice)
 add_test(NAME link_twice COMMAND link_twice)
