@@ -3,7 +3,7 @@
 // Properties of sliver perturbation: gradients against differences, angles against their definition, changes that can
 // be undone, crease vertices that come and go, and what has to hold whenever and however a run ends.
 
-#include "surface_fixtures.h"
+#include "fixtures/meshing_3.h"
 
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/criteria/check_criteria_3.h>
