@@ -4,7 +4,7 @@
 // box, so that one operation tests four boxes; leaves are blocks of up to four boxes. The boxes are kept in a frame of
 // their own, coordinates in [-1, 1], and grown by more than what rounding can do to a query in that frame: a traversal
 // meets every box that it has to, and a few others. The shape is that of the hierarchies of ray tracers (Wald, Benthin,
-// Boulos: "Getting rid of packets", 2008); the split is by the surface area heuristic. Not meant for users.
+// Boulos: "Getting rid of packets", 2008); the split is by the surface area heuristic.
 
 #ifndef WEFT_INTERNAL_BOXES_BOX_HIERARCHY_3_H
 #define WEFT_INTERNAL_BOXES_BOX_HIERARCHY_3_H

@@ -2,8 +2,6 @@
 //
 // What polishing lowers: the cost of a triangle grows as its smallest angle falls and its largest rises, and jumps when
 // an edge is too long for the sizing field.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_POLISH_TRIANGLE_COST_2_H
 #define WEFT_PLANAR_POLISH_TRIANGLE_COST_2_H
