@@ -9,7 +9,7 @@
 #ifndef WEFT_INTERNAL_BOXES_BOX_HIERARCHY_3_H
 #define WEFT_INTERNAL_BOXES_BOX_HIERARCHY_3_H
 
-#include <weft/internal/boxes/build_boxes_3.h>
+#include <weft/internal/boxes/Box_tree_builder_3.h>
 #include <weft/internal/boxes/Float_4.h>
 
 #include <array>

@@ -10,7 +10,7 @@
 #include <weft/errors.h>
 #include <weft/internal/counted.h>
 #include <weft/planar/graph/Pslg_2.h>
-#include <weft/planar/graph/pslg_contacts.h>
+#include <weft/planar/graph/segment_contacts.h>
 
 #include <CGAL/Cartesian_converter.h>
 #include <CGAL/Exact_rational.h>

@@ -9,12 +9,12 @@
 #ifndef WEFT_SPATIAL_LOCAL_IMPROVE_FIXED_3_H
 #define WEFT_SPATIAL_LOCAL_IMPROVE_FIXED_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/local/Editable_mesh_3.h>
 #include <weft/spatial/local/fixed_facets_bound_3.h>
 #include <weft/spatial/local/Improve_options_3.h>
 #include <weft/spatial/local/Local_operations_3.h>
-#include <weft/spatial/local/star_optimiser_3.h>
+#include <weft/spatial/local/Star_optimiser_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <CGAL/Kernel/global_functions.h>

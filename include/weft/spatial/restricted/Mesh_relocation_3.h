@@ -6,7 +6,7 @@
 #ifndef WEFT_SPATIAL_RESTRICTED_MESH_RELOCATION_3_H
 #define WEFT_SPATIAL_RESTRICTED_MESH_RELOCATION_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
