@@ -243,7 +243,7 @@ private:
   }
 
   // Breadth first: the next node is known before the test of this one has ended, so the processor works on several at
-  // once. No branches on single children, which nobody could predict. Depth first was slower by a third.
+  // once. No branches on single children, which nobody could predict.
   template <class Test, class Visit>
   bool visit_where(const Test& test, Visit&& visit, std::uint32_t root = 0) const
   {

@@ -136,8 +136,7 @@ private:
     report_.position_seconds += lap.seconds();
   }
 
-  /// The cells around every vertex, by one pass over all cells, which takes a third of the time of walking around
-  /// every vertex.
+  /// The cells around every vertex, by one pass over all cells, which is faster than walking around every vertex.
   void list_stars()
   {
     cells_.clear();

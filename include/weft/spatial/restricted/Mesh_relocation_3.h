@@ -138,8 +138,8 @@ private:
     return mesh_.tr_->number_of_vertices() == points.size() + 8;
   }
 
-  /// Part of the vertices to move one by one rather than to build anew: a vertex by itself takes more than ten times as
-  /// long as in a new triangulation.
+  /// Part of the vertices to move one by one rather than to build anew: a vertex by itself takes much longer than in a
+  /// new triangulation.
   static constexpr double most_alone = 0.05;
   /// The same where those vertices may as well stay: flips then take less time than building anew.
   static constexpr double most_staying = 0.5;
