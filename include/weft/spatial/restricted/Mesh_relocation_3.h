@@ -8,6 +8,7 @@
 
 #include <weft/internal/Timer.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
+#include <weft/spatial/restricted/Relocation_counts_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
