@@ -15,7 +15,7 @@
 #define WEFT_IMPROVE_2_H
 
 #include <weft/errors.h>
-#include <weft/internal/answers.h>
+#include <weft/internal/Answers.h>
 #include <weft/internal/run/Run.h>
 #include <weft/planar/mesh/assemble_mesh_2.h>
 #include <weft/planar/mesh/quality_2.h>

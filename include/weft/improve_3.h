@@ -21,7 +21,7 @@
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/mesh/validate_3.h>
 #include <weft/spatial/run/improve_sliding_3.h>
-#include <weft/spatial/run/require_oracle_3.h>
+#include <weft/spatial/run/Oracle_requirements_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
 

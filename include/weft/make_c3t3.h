@@ -19,7 +19,7 @@
 #ifndef WEFT_MAKE_C3T3_H
 #define WEFT_MAKE_C3T3_H
 
-#include <weft/internal/answers.h>
+#include <weft/internal/Answers.h>
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/cgal/cgal_criteria_3.h>
 #include <weft/spatial/cgal/Mesh_domain_oracle_3.h>

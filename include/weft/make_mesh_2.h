@@ -16,7 +16,7 @@
 
 #include <weft/options.h>
 #include <weft/planar/run/Planar_mesher_2.h>
-#include <weft/planar/run/require_planar_2.h>
+#include <weft/planar/run/Planar_requirements_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/report.h>
 #include <weft/sizing/Uniform_sizing.h>

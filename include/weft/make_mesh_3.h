@@ -20,7 +20,7 @@
 #include <weft/spatial/domain/Polyhedral_oracle_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
-#include <weft/spatial/run/require_oracle_3.h>
+#include <weft/spatial/run/Oracle_requirements_3.h>
 #include <weft/spatial/run/Spatial_mesher_3.h>
 
 #include <cstdlib>

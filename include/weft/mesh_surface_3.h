@@ -16,15 +16,15 @@
 #ifndef WEFT_MESH_SURFACE_3_H
 #define WEFT_MESH_SURFACE_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/options.h>
 #include <weft/report.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/domain/Polyhedral_oracle_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
-#include <weft/spatial/run/give_up_creases_3.h>
-#include <weft/spatial/run/require_oracle_3.h>
+#include <weft/spatial/run/drop_creases_3.h>
+#include <weft/spatial/run/Oracle_requirements_3.h>
 #include <weft/spatial/run/Spatial_mesher_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>

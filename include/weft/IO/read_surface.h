@@ -10,8 +10,8 @@
 #define WEFT_IO_READ_SURFACE_H
 
 #include <weft/IO/internal/extension.h>
-#include <weft/IO/internal/surface_ply.h>
-#include <weft/IO/internal/surface_stl.h>
+#include <weft/IO/internal/read_ply_surface.h>
+#include <weft/IO/internal/read_stl_surface.h>
 #include <weft/IO/internal/surface_text_formats.h>
 #include <weft/spatial/surface/Polygon_soup_3.h>
 

@@ -9,15 +9,13 @@
 
 #include <weft/internal/as_index.h>
 #include <weft/internal/cold.h>
+#include <weft/IO/internal/Gmsh_writer.h>
 #include <weft/IO/internal/Indexed_mesh_2.h>
-#include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/write_gmsh_3.h> // the overload for spatial meshes
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,24 +23,13 @@
 namespace weft {
 namespace internal {
 
-/// A point, curve or surface of the file with what belongs to it.
-struct Gmsh_entity
+inline std::array<double, 3> gmsh_point(const Indexed_mesh_2& mesh, std::size_t v)
 {
-  int physical = 0; ///< 0: none
-  double lower[2] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-  double upper[2] = {std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
-  std::vector<std::size_t> nodes, elements; ///< indices into the mesh's arrays
+  return {mesh.points[v][0], mesh.points[v][1], 0};
+}
 
-  void include(const std::array<double, 2>& p)
-  {
-    for (std::size_t i = 0; i < 2; ++i) lower[i] = std::min(lower[i], p[i]), upper[i] = std::max(upper[i], p[i]);
-  }
-};
-
-/// Entities by dimension and tag.
-using Gmsh_entities = std::array<std::map<int, Gmsh_entity>, 3>;
-
-/// Distributes the mesh over entities. A node belongs to the entity of lowest dimension that has it.
+/// Distributes the mesh over entities; what bounds them isn't stated. A node belongs to the entity of lowest dimension
+/// that has it.
 WEFT_COLD inline Gmsh_entities gmsh_entities(const Indexed_mesh_2& mesh)
 {
   Gmsh_entities entities;
@@ -53,7 +40,7 @@ WEFT_COLD inline Gmsh_entities gmsh_entities(const Indexed_mesh_2& mesh)
     surface.physical = mesh.has_region_markers ? triangle.marker : 1;
     surface.elements.push_back(i);
     for (const std::size_t v : triangle.vertices)
-      owner[v] = {2, triangle.component + 1}, surface.include(mesh.points[v]);
+      owner[v] = {2, triangle.component + 1}, surface.include(gmsh_point(mesh, v));
   }
   // Edges of unknown origin share the curve after the last input segment.
   int last = 0;
@@ -64,69 +51,15 @@ WEFT_COLD inline Gmsh_entities gmsh_entities(const Indexed_mesh_2& mesh)
     Gmsh_entity& curve = entities[1][tag];
     curve.physical = edge.marker;
     curve.elements.push_back(i);
-    for (const std::size_t v : edge.vertices) owner[v] = {1, tag}, curve.include(mesh.points[v]);
+    for (const std::size_t v : edge.vertices) owner[v] = {1, tag}, curve.include(gmsh_point(mesh, v));
   }
   for (std::size_t i = 0; i < mesh.fixed.size(); ++i) owner[mesh.fixed[i]] = {0, static_cast<int>(i) + 1};
   for (std::size_t v = 0; v < owner.size(); ++v) {
     Gmsh_entity& entity = entities[as_index(owner[v].first)][owner[v].second];
     entity.nodes.push_back(v);
-    if (owner[v].first == 0) entity.include(mesh.points[v]);
+    if (owner[v].first == 0) entity.include(gmsh_point(mesh, v));
   }
   return entities;
-}
-
-WEFT_COLD inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities& entities)
-{
-  out << "$Entities\n" << entities[0].size() << ' ' << entities[1].size() << ' ' << entities[2].size() << " 0\n";
-  for (const auto& [tag, point] : entities[0]) out << tag << ' ' << point.lower[0] << ' ' << point.lower[1] << " 0 0\n";
-  for (int dimension = 1; dimension <= 2; ++dimension)
-    for (const auto& [tag, entity] : entities[as_index(dimension)]) {
-      out << tag << ' ' << entity.lower[0] << ' ' << entity.lower[1] << " 0 " << entity.upper[0] << ' '
-          << entity.upper[1] << " 0 ";
-      if (entity.physical != 0)
-        out << "1 " << entity.physical;
-      else
-        out << '0';
-      out << " 0\n"; // the boundary of the entity isn't stated
-    }
-  out << "$EndEntities\n";
-}
-
-WEFT_COLD inline void write_gmsh_nodes(Text_writer& out, const Indexed_mesh_2& mesh, const Gmsh_entities& entities)
-{
-  std::size_t blocks = 0;
-  for (const auto& of_dimension : entities)
-    for (const auto& [tag, entity] : of_dimension) blocks += !entity.nodes.empty();
-  out << "$Nodes\n" << blocks << ' ' << mesh.points.size() << " 1 " << mesh.points.size() << '\n';
-  for (int dimension = 0; dimension <= 2; ++dimension)
-    for (const auto& [tag, entity] : entities[as_index(dimension)]) {
-      if (entity.nodes.empty()) continue;
-      out << dimension << ' ' << tag << " 0 " << entity.nodes.size() << '\n';
-      for (const std::size_t v : entity.nodes) out << v + 1 << '\n';
-      for (const std::size_t v : entity.nodes) out << mesh.points[v][0] << ' ' << mesh.points[v][1] << " 0\n";
-    }
-  out << "$EndNodes\n";
-}
-
-WEFT_COLD inline void write_gmsh_elements(Text_writer& out, const Indexed_mesh_2& mesh, const Gmsh_entities& entities)
-{
-  const std::size_t n = mesh.edges.size() + mesh.triangles.size();
-  std::size_t number = 0;
-  out << "$Elements\n" << entities[1].size() + entities[2].size() << ' ' << n << " 1 " << n << '\n';
-  for (const auto& [tag, curve] : entities[1]) {
-    out << "1 " << tag << " 1 " << curve.elements.size() << '\n'; // type 1: line
-    for (const std::size_t e : curve.elements)
-      out << ++number << ' ' << mesh.edges[e].vertices[0] + 1 << ' ' << mesh.edges[e].vertices[1] + 1 << '\n';
-  }
-  for (const auto& [tag, surface] : entities[2]) {
-    out << "2 " << tag << " 2 " << surface.elements.size() << '\n'; // type 2: triangle
-    for (const std::size_t t : surface.elements) {
-      out << ++number;
-      for (const std::size_t v : mesh.triangles[t].vertices) out << ' ' << v + 1;
-      out << '\n';
-    }
-  }
-  out << "$EndElements\n";
 }
 
 } // namespace internal
@@ -145,11 +78,11 @@ WEFT_COLD void write_gmsh(const std::string& filename, const Cdt& cdt,
 {
   const internal::Indexed_mesh_2 mesh = internal::indexed_mesh(cdt, tags);
   const internal::Gmsh_entities entities = internal::gmsh_entities(mesh);
-  internal::Text_writer out(filename);
-  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
-  internal::write_gmsh_entities(out, entities);
-  internal::write_gmsh_nodes(out, mesh, entities);
-  internal::write_gmsh_elements(out, mesh, entities);
+  internal::Gmsh_writer out(filename, entities);
+  out.write_nodes([&](std::size_t v) { return internal::gmsh_point(mesh, v); });
+  out.begin_elements();
+  out.write_elements(1, [&](std::size_t i) { return mesh.edges[i].vertices; });
+  out.write_elements(2, [&](std::size_t i) { return mesh.triangles[i].vertices; });
   out.close();
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A sum of many doubles whose error doesn't grow with their number.
-//
-// Not meant for users.
 
 #ifndef WEFT_INTERNAL_COMPENSATED_SUM_H
 #define WEFT_INTERNAL_COMPENSATED_SUM_H

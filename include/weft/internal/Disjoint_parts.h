@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Which of the numbers 0, 1, ... belong together, when pairs of them are said to. Not meant for users.
+// Which of the numbers 0, 1, ... belong together, when pairs of them are said to.
 
 #ifndef WEFT_INTERNAL_DISJOINT_PARTS_H
 #define WEFT_INTERNAL_DISJOINT_PARTS_H

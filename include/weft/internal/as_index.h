@@ -2,8 +2,6 @@
 //
 // CGAL counts vertices, edges and corners of a face or cell in int, and so do the numbers that weft gives them, where
 // -1 means none; containers count in std::size_t. This is the one place where the former become the latter.
-//
-// Not meant for users.
 
 #ifndef WEFT_INTERNAL_AS_INDEX_H
 #define WEFT_INTERNAL_AS_INDEX_H

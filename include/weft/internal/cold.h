@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Marks for functions that run rarely or call others that take far longer: compilers needn't inline into them what
-// makes loops fast. Half of the time to compile a program that writes a mesh would go there.
+// makes loops fast. A large part of the time to compile a program that writes a mesh would go there.
 
 #ifndef WEFT_INTERNAL_COLD_H
 #define WEFT_INTERNAL_COLD_H

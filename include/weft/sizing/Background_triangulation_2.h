@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // A triangulation with a size at each vertex, linear between, copied into arrays.
-//
-// Not meant for users.
 
 #ifndef WEFT_SIZING_BACKGROUND_TRIANGULATION_2_H
 #define WEFT_SIZING_BACKGROUND_TRIANGULATION_2_H

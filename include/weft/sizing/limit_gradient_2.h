@@ -4,8 +4,6 @@
 // a shortest path problem; on a triangle it is the local update of fast marching methods (Kimmel and Sethian,
 // "Computing geodesic paths on manifolds", 1998; as limiter: Persson, "Mesh size functions for implicit geometries and
 // PDE-based gradient limiting", 2006), applied in order of increasing size.
-//
-// Not meant for users.
 
 #ifndef WEFT_SIZING_LIMIT_GRADIENT_2_H
 #define WEFT_SIZING_LIMIT_GRADIENT_2_H

@@ -4,12 +4,12 @@
 // box, so that one operation tests four boxes; leaves are blocks of up to four boxes. The boxes are kept in a frame of
 // their own, coordinates in [-1, 1], and grown by more than what rounding can do to a query in that frame: a traversal
 // meets every box that it has to, and a few others. The shape is that of the hierarchies of ray tracers (Wald, Benthin,
-// Boulos: "Getting rid of packets", 2008); the split is by the surface area heuristic. Not meant for users.
+// Boulos: "Getting rid of packets", 2008); the split is by the surface area heuristic.
 
 #ifndef WEFT_INTERNAL_BOXES_BOX_HIERARCHY_3_H
 #define WEFT_INTERNAL_BOXES_BOX_HIERARCHY_3_H
 
-#include <weft/internal/boxes/build_boxes_3.h>
+#include <weft/internal/boxes/Box_tree_builder_3.h>
 #include <weft/internal/boxes/Float_4.h>
 
 #include <array>
@@ -243,7 +243,7 @@ private:
   }
 
   // Breadth first: the next node is known before the test of this one has ended, so the processor works on several at
-  // once. No branches on single children, which nobody could predict. Depth first was slower by a third.
+  // once. No branches on single children, which nobody could predict.
   template <class Test, class Visit>
   bool visit_where(const Test& test, Visit&& visit, std::uint32_t root = 0) const
   {

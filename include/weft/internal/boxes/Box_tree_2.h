@@ -2,7 +2,7 @@
 //
 // A bounding volume hierarchy over planar boxes that carry a lower bound of a value, searched by branch and bound.
 // It answers "which item has the smallest value" for any value that can be bounded from below on a box: distances,
-// and distances plus sizes. Not meant for users.
+// and distances plus sizes.
 
 #ifndef WEFT_INTERNAL_BOXES_BOX_TREE_2_H
 #define WEFT_INTERNAL_BOXES_BOX_TREE_2_H

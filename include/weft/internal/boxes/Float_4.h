@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Four floats at a time: SSE2 where the processor has it, which every x86-64 has, and plain loops elsewhere. The
-// bounding volume hierarchies test four boxes or four triangles with one such operation. Not meant for users.
+// bounding volume hierarchies test four boxes or four triangles with one such operation.
 
 #ifndef WEFT_INTERNAL_BOXES_FLOAT_4_H
 #define WEFT_INTERNAL_BOXES_FLOAT_4_H

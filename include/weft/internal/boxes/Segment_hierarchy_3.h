@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Segments in a bounding volume hierarchy: the nearest point on a chain, and the chains that a convex polygon meets.
-// Not meant for users.
 
 #ifndef WEFT_INTERNAL_BOXES_SEGMENT_HIERARCHY_3_H
 #define WEFT_INTERNAL_BOXES_SEGMENT_HIERARCHY_3_H

@@ -2,7 +2,7 @@
 //
 // Four triangles in floats, one operation for all four: which of them a segment or a ray may meet, and how far they are
 // at least from a point. Errors of floats are bounded, so what is ruled out here needs no exact test; nearly everything
-// is. Coordinates are those of a hierarchy's frame. Not meant for users.
+// is. Coordinates are those of a hierarchy's frame.
 
 #ifndef WEFT_INTERNAL_BOXES_TRIANGLE_BLOCK_4_H
 #define WEFT_INTERNAL_BOXES_TRIANGLE_BLOCK_4_H

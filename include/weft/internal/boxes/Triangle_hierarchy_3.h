@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Triangles in a bounding volume hierarchy, and the queries of a domain oracle on them. Floats rule out, exact
-// predicates decide, doubles construct. Not meant for users.
+// predicates decide, doubles construct.
 
 #ifndef WEFT_INTERNAL_BOXES_TRIANGLE_HIERARCHY_3_H
 #define WEFT_INTERNAL_BOXES_TRIANGLE_HIERARCHY_3_H

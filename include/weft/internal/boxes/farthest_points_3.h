@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Well-spread points on part of a triangle surface, by farthest-point sampling (Gonzalez 1985; Eldar et al. 1997): each
-// next point is the candidate farthest from those chosen before. Not meant for users.
+// next point is the candidate farthest from those chosen before.
 
 #ifndef WEFT_INTERNAL_BOXES_FARTHEST_POINTS_3_H
 #define WEFT_INTERNAL_BOXES_FARTHEST_POINTS_3_H

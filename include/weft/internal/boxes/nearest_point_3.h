@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Nearest points of a segment and of a triangle, in doubles. Not meant for users.
+// Nearest points of a segment and of a triangle, in doubles.
 
 #ifndef WEFT_INTERNAL_BOXES_NEAREST_POINT_3_H
 #define WEFT_INTERNAL_BOXES_NEAREST_POINT_3_H

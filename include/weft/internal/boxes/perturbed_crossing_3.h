@@ -5,7 +5,7 @@
 // and Muecke 1990). All queries move alike, so all parities agree with each other: the moved query meets no vertex and
 // no edge of a closed surface, and each crossing lies in exactly one triangle. What the query touches where it really
 // is comes from the signs before the move. Signs are those of doubles where an error bound proves them, else of the
-// kernel's exact predicates. Not meant for users.
+// kernel's exact predicates.
 
 #ifndef WEFT_INTERNAL_BOXES_PERTURBED_CROSSING_3_H
 #define WEFT_INTERNAL_BOXES_PERTURBED_CROSSING_3_H

@@ -5,7 +5,7 @@
 #ifndef WEFT_INTERNAL_RUN_RUN_H
 #define WEFT_INTERNAL_RUN_RUN_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/visitor.h>
 
 #include <algorithm>

@@ -3,8 +3,6 @@
 // Checks a planar straight line graph and, where that is wanted, splits its segments until they meet at their ends
 // only. Crossings are computed exactly and rounded once; since rounding may make new contacts, they are looked for
 // again until there are none.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_GRAPH_PSLG_SPLITTER_H
 #define WEFT_PLANAR_GRAPH_PSLG_SPLITTER_H
@@ -12,7 +10,7 @@
 #include <weft/errors.h>
 #include <weft/internal/counted.h>
 #include <weft/planar/graph/Pslg_2.h>
-#include <weft/planar/graph/pslg_contacts.h>
+#include <weft/planar/graph/segment_contacts.h>
 
 #include <CGAL/Cartesian_converter.h>
 #include <CGAL/Exact_rational.h>

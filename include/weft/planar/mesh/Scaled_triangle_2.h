@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Lengths, angles and ratios of one triangle, none of which over- or underflows before its result does.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_MESH_SCALED_TRIANGLE_2_H
 #define WEFT_PLANAR_MESH_SCALED_TRIANGLE_2_H

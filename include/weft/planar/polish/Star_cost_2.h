@@ -2,8 +2,6 @@
 //
 // What the triangles around a vertex would cost if it lay elsewhere. The star is loaded once, since many places are
 // tried.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_POLISH_STAR_COST_2_H
 #define WEFT_PLANAR_POLISH_STAR_COST_2_H

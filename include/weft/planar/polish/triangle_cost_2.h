@@ -2,8 +2,6 @@
 //
 // What polishing lowers: the cost of a triangle grows as its smallest angle falls and its largest rises, and jumps when
 // an edge is too long for the sizing field.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_POLISH_TRIANGLE_COST_2_H
 #define WEFT_PLANAR_POLISH_TRIANGLE_COST_2_H
@@ -51,8 +49,8 @@ inline double triangle_cost_2(double doubled, const std::array<double, 3>& oppos
   constexpr double cot_small = 0.839, cot_small_limit = 1.327, cot_large = 0.176, cot_large_limit = -0.070;
   if (!(doubled > 0)) return std::numeric_limits<double>::infinity();
   const auto [p2, q2, r2] = opposite;
-  // Cotangents times `doubled`; dividing all of them took four times as long. Compilers make other forms of this
-  // loop into branches that are mispredicted, which costs up to half of the time again.
+  // Cotangents times `doubled`, since divisions are slow. Compilers make other forms of this loop into branches that
+  // are mispredicted.
   const std::array<double, 3> scaled{q2 + r2 - p2, p2 + r2 - q2, p2 + q2 - r2};
   double highest = cot_small * doubled, lowest = cot_large * doubled; // of the smallest and the largest angle
   for (std::size_t i = 0; i < 3; ++i) {

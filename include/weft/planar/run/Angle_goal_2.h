@@ -2,8 +2,6 @@
 //
 // Which smallest angle refinement in the plane works for: the one asked for; once all criteria hold, 25 degrees, as far
 // as that is cheap; and 25 degrees, too, where the one asked for can't be had.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_RUN_ANGLE_GOAL_2_H
 #define WEFT_PLANAR_RUN_ANGLE_GOAL_2_H

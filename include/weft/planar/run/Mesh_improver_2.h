@@ -18,7 +18,7 @@
 #include <weft/planar/run/Mesh_optimiser_2.h>
 #include <weft/planar/run/outline_2.h>
 #include <weft/planar/run/outline_graph_2.h>
-#include <weft/planar/run/vertex_density_2.h>
+#include <weft/planar/run/Vertex_density_sizing_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/working/Working_mesh_2.h>
 

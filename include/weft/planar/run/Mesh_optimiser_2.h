@@ -2,8 +2,6 @@
 //
 // What improves a planar mesh without refining it, with the bounds and budgets that meshing and improving share:
 // relaxation, polishing, insertions and removals near bad angles, and random changes.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_RUN_MESH_OPTIMISER_2_H
 #define WEFT_PLANAR_RUN_MESH_OPTIMISER_2_H

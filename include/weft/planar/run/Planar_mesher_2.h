@@ -12,7 +12,7 @@
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/refine/Batch_refiner_2.h>
 #include <weft/planar/refine/Crystal_seeder_2.h>
-#include <weft/planar/refine/input_grading_2.h>
+#include <weft/planar/refine/grade_input_2.h>
 #include <weft/planar/refine/least_vertices_2.h>
 #include <weft/planar/refine/sample_constraints_2.h>
 #include <weft/planar/relax/Relaxation_guard_2.h>

@@ -2,8 +2,6 @@
 //
 // The features of a planar straight line graph, its points and closed segments, and the distances to them that the
 // local feature size is made of: `Local_feature_size_2` says how.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_SIZING_PSLG_FEATURES_2_H
 #define WEFT_PLANAR_SIZING_PSLG_FEATURES_2_H

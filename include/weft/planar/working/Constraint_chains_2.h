@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The constraints of a triangulation before it is refined, each a chain of edges afterwards.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_WORKING_CONSTRAINT_CHAINS_2_H
 #define WEFT_PLANAR_WORKING_CONSTRAINT_CHAINS_2_H

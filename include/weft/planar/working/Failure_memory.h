@@ -2,7 +2,6 @@
 //
 // Remembers places of a mesh where an improvement was tried in vain, by a key made of all that the attempt depends on.
 // Numbers of vertices change and trials are taken back, coordinates then are what they were; so keys are made of those.
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_WORKING_FAILURE_MEMORY_H
 #define WEFT_PLANAR_WORKING_FAILURE_MEMORY_H

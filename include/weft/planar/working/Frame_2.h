@@ -2,8 +2,6 @@
 //
 // Four far vertices around a triangulation, so that none that moves lies on the convex hull and no rounded Steiner
 // point can dent it.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_WORKING_FRAME_2_H
 #define WEFT_PLANAR_WORKING_FRAME_2_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The last values of a sizing field, by the exact place where it was asked. Meshing asks again and again in the middle
-// of triangles that haven't changed. Nothing is interpolated, so no value depends on the memory. Not meant for users.
+// of triangles that haven't changed. Nothing is interpolated, so no value depends on the memory.
 
 #ifndef WEFT_PLANAR_WORKING_SIZE_MEMORY_H
 #define WEFT_PLANAR_WORKING_SIZE_MEMORY_H

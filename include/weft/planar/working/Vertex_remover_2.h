@@ -2,8 +2,6 @@
 //
 // Removes vertices from a constrained Delaunay triangulation by flips, so that the faces that are left keep their
 // domain flags. Flips cut ears off the star of the vertex until three faces are left, which become one.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_WORKING_VERTEX_REMOVER_2_H
 #define WEFT_PLANAR_WORKING_VERTEX_REMOVER_2_H

@@ -2,8 +2,6 @@
 //
 // The edge lengths to aim at while a triangulation is meshed: the sizing field, asked as seldom as possible, or less
 // near details of the input, and what was found at each numbered vertex.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_WORKING_VERTEX_TARGETS_2_H
 #define WEFT_PLANAR_WORKING_VERTEX_TARGETS_2_H

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The curves of CGAL's MeshDomainWithFeatures_3, which are known by arc length only, as polylines. Not meant for users.
+// The curves of CGAL's MeshDomainWithFeatures_3, which are known by arc length only, as polylines.
 
 #ifndef WEFT_SPATIAL_CGAL_DISCRETISE_CURVE_3_H
 #define WEFT_SPATIAL_CGAL_DISCRETISE_CURVE_3_H

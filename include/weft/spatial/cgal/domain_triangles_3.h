@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The triangles that bound a CGAL mesh domain, where it is one of triangles and says so: Polyhedral_mesh_domain_3, with
-// or without features, Polyhedral_complex_mesh_domain_3, and what is derived from them. Not meant for users.
+// or without features, Polyhedral_complex_mesh_domain_3, and what is derived from them.
 
 #ifndef WEFT_SPATIAL_CGAL_DOMAIN_TRIANGLES_3_H
 #define WEFT_SPATIAL_CGAL_DOMAIN_TRIANGLES_3_H

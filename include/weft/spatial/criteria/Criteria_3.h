@@ -7,7 +7,7 @@
 #define WEFT_SPATIAL_CRITERIA_CRITERIA_3_H
 
 #include <weft/errors.h>
-#include <weft/internal/answers.h>
+#include <weft/internal/Answers.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <array>

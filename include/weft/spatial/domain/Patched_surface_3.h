@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Triangles that bound subdomains and make up patches, ready for the queries of domain oracles: which side, where a
-// segment meets them, the nearest point. Not meant for users.
+// segment meets them, the nearest point.
 
 #ifndef WEFT_SPATIAL_DOMAIN_PATCHED_SURFACE_3_H
 #define WEFT_SPATIAL_DOMAIN_PATCHED_SURFACE_3_H

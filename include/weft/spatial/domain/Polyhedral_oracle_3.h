@@ -6,9 +6,9 @@
 // which triangle are decided by exact predicates, rays and segments that graze an edge or a vertex included; the points
 // are rounded to doubles and lie on the boundary up to that rounding.
 //
-// The hierarchies of boxes are weft's own because queries are most of the time of a mesher: they are 4 to 18 times as
-// fast as CGAL's AABB tree (benchmark/oracle_throughput). Floats and SSE2 rule out nearly everything; one to three
-// triangles of a query reach doubles or an exact predicate.
+// The hierarchies of boxes are weft's own because queries are most of the time of a mesher, and CGAL's AABB tree takes
+// several times as long (benchmark/oracle_throughput). Floats and SSE2 rule out nearly everything; few triangles of a
+// query reach doubles or an exact predicate.
 
 #ifndef WEFT_SPATIAL_DOMAIN_POLYHEDRAL_ORACLE_3_H
 #define WEFT_SPATIAL_DOMAIN_POLYHEDRAL_ORACLE_3_H

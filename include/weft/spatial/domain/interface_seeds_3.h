@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Points on the interfaces of a domain that is known by labels: where the edges of a grid change their label, collected
-// to connected parts. Not meant for users.
+// to connected parts.
 
 #ifndef WEFT_SPATIAL_DOMAIN_INTERFACE_SEEDS_3_H
 #define WEFT_SPATIAL_DOMAIN_INTERFACE_SEEDS_3_H

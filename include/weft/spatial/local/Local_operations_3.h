@@ -8,13 +8,12 @@
 #ifndef WEFT_SPATIAL_LOCAL_LOCAL_OPERATIONS_3_H
 #define WEFT_SPATIAL_LOCAL_LOCAL_OPERATIONS_3_H
 
+#include <weft/spatial/local/Cavity_3.h>
 #include <weft/spatial/local/Editable_mesh_3.h>
-#include <weft/spatial/local/star_optimiser_3.h>
-
-#include <CGAL/Kernel/global_functions.h>
+#include <weft/spatial/local/Ring_triangulation_3.h>
+#include <weft/spatial/local/Star_optimiser_3.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -39,16 +38,13 @@ public:
   using Cell_vertices = typename Mesh::Cell_vertices;
   using Facet_vertices = typename Mesh::Facet_vertices;
 
-  explicit Local_operations_3(Mesh& mesh) : mesh_(mesh) {}
+  explicit Local_operations_3(Mesh& mesh) : mesh_(mesh), ring_triangulation_(mesh), cavity_(mesh) {}
 
   const Local_counts_3& counts() const { return counts_; }
   void set_counts(const Local_counts_3& counts) { counts_ = counts; }
 
   double quality(int c) const { return quality(mesh_.cell(c).vertices); }
-  double quality(const Cell_vertices& v) const
-  {
-    return cell_quality_3(mesh_.point(v[0]), mesh_.point(v[1]), mesh_.point(v[2]), mesh_.point(v[3]));
-  }
+  double quality(const Cell_vertices& v) const { return cell_quality_3(mesh_, v); }
 
   /// Moves a free vertex; whether that made the worst cell of its star better by more than rounding.
   bool smooth(int v, double enough = HUGE_VAL)
@@ -65,18 +61,17 @@ public:
     return true;
   }
 
-  /// Removes the edge between two vertices of a cell, triangulating the ring of vertices around it as well as possible
-  /// (Klincsek's algorithm). O(n^3) for n cells around it.
+  /// Removes the edge between two vertices of a cell, triangulating the ring of vertices around it as well as possible.
+  /// O(n^3) for n cells around it.
   bool remove_edge(int c, int a, int b)
   {
     if (!mesh_.ring(c, a, b, most_around, cells_, ring_)) return thin_fan(c, a, b);
-    const std::size_t n = ring_.size();
-    if (n < 3) return false;
+    if (ring_.size() < 3) return false;
     const double before = worst_of(cells_);
-    triangulate_ring(before, a, b);
-    if (!(best_[0][n - 1] > before + least_gain)) return false;
+    ring_triangulation_.triangulate(ring_, a, b, before);
+    if (!(ring_triangulation_.worst() > before + least_gain)) return false;
     made_.clear();
-    add_triangulation(0, n - 1, a, b);
+    ring_triangulation_.append_cells(made_);
     if (!mesh_.replace(cells_, made_)) return false;
     ++counts_.edge_removals;
     return true;
@@ -87,27 +82,12 @@ public:
   bool thin_fan(int c, int a, int b)
   {
     if (!mesh_.fan(c, a, b, most_around, cells_, ring_)) return false;
-    const std::size_t n = ring_.size();
-    if (n < 3) return false;
+    if (ring_.size() < 3) return false;
     const double before = worst_of(cells_);
-    triangulate_ring(before, a, b);
-    std::array<double, most_around> best; // of the parts so far
-    std::array<std::size_t, most_around> from{};
-    best[0] = HUGE_VAL;
-    for (std::size_t j = 1; j < n; ++j) {
-      best[j] = -HUGE_VAL;
-      for (std::size_t i = 0; i < j; ++i) {
-        double q = (std::min)(best[i], best_[i][j]);
-        if (q > best[j]) q = (std::min)(q, quality({a, b, ring_[i], ring_[j]}));
-        if (q > best[j]) best[j] = q, from[j] = i;
-      }
-    }
-    if (!(best[n - 1] > before + least_gain)) return false;
+    ring_triangulation_.triangulate(ring_, a, b, before);
+    if (!(ring_triangulation_.thin_out() > before + least_gain)) return false;
     made_.clear();
-    for (std::size_t j = n - 1; j > 0; j = from[j]) {
-      made_.push_back({a, b, ring_[from[j]], ring_[j]});
-      add_triangulation(from[j], j, a, b);
-    }
+    ring_triangulation_.append_thinned(made_);
     if (!mesh_.replace(cells_, made_)) return false;
     ++counts_.edge_removals;
     return true;
@@ -138,68 +118,56 @@ public:
   bool remove_vertex(int v)
   {
     if (!mesh_.is_free(v)) return false;
-    cells_ = mesh_.star(v);
-    load_cavity();
-    double best = worst_of(cells_) + least_gain;
+    cavity_.assign(mesh_.star(v));
+    const std::vector<Facet_vertices>& outer = cavity_.outer_facets();
+    double best = worst_of(cavity_.cells()) + least_gain;
     int target = Mesh::none;
-    for (const int w : link_vertices()) {
+    for (const int w : cavity_.outer_vertices()) {
       double q = HUGE_VAL;
-      for (std::size_t k = 0; k < outer_.size() && q > best; ++k)
-        if (!contains(outer_[k], w)) q = (std::min)(q, quality({w, outer_[k][0], outer_[k][1], outer_[k][2]}));
+      for (std::size_t k = 0; k < outer.size() && q > best; ++k)
+        if (!cavity_.contains(outer[k], w)) q = (std::min)(q, quality({w, outer[k][0], outer[k][1], outer[k][2]}));
       if (q > best) best = q, target = w;
     }
     if (target == Mesh::none) return false;
-    made_.clear();
-    for (const Facet_vertices& f : outer_)
-      if (!contains(f, target)) made_.push_back({target, f[0], f[1], f[2]});
-    if (!mesh_.replace(cells_, made_)) return false;
+    if (!fill_cavity(target)) return false;
     ++counts_.contractions;
     return true;
   }
 
   /// Puts a new vertex into a cell, into a cavity that grows as long as that helps, and moves it to its best place.
   /// \param most_loss how much worse than the worst cell unmade the worst one made may be: for whoever undoes it if
-  /// what
-  ///   follows doesn't make up for it.
+  ///   what follows doesn't make up for it.
   bool insert_vertex(int c, const Point& start, double most_loss = 0)
   {
     Point p = start;
-    cells_ = {c};
+    cavity_.assign({c});
     std::vector<int> best_cells;
     Point best_place = p;
     double best_gain = -most_loss + least_gain;
     for (std::size_t size = 1; size <= most_in_cavity; ++size) {
-      load_cavity();
       load_star_of_cavity();
       Point place = p;
       const double after =
           size % 3 == 1 || size < 6 ? optimiser_.optimise(place, star_) : Star_optimiser_3<K>::quality(place, star_);
       if (after > 0) p = place;
-      const double gain = after - worst_of(cells_);
+      const double gain = after - worst_of(cavity_.cells());
       if (after > 0 && gain > best_gain) {
         best_gain = gain;
-        best_cells = cells_;
+        best_cells = cavity_.cells();
         best_place = place;
       }
-      if (!grow_cavity(p)) break;
+      if (!cavity_.grow(p)) break;
     }
     if (best_cells.empty()) return false;
-    cells_ = best_cells;
-    load_cavity();
-    const int v = mesh_.add_vertex(best_place);
-    made_.clear();
-    for (const Facet_vertices& f : outer_) made_.push_back({v, f[0], f[1], f[2]});
-    if (!mesh_.replace(cells_, made_)) return false;
+    cavity_.assign(best_cells);
+    if (!fill_cavity(mesh_.add_vertex(best_place))) return false;
     ++counts_.insertions;
-    last_inserted_ = v;
     return true;
   }
 
-  int last_inserted() const { return last_inserted_; }
-
 private:
   static constexpr double least_gain = 1e-9;
-  static constexpr std::size_t most_around = 11, most_in_cavity = 24;
+  static constexpr std::size_t most_around = Ring_triangulation_3<K>::most_around, most_in_cavity = 24;
   static constexpr int deepest = 5;
 
   double worst_of(const std::vector<int>& cells) const
@@ -208,8 +176,6 @@ private:
     for (const int c : cells) worst = (std::min)(worst, quality(c));
     return worst;
   }
-
-  static bool contains(const Facet_vertices& f, int v) { return f[0] == v || f[1] == v || f[2] == v; }
 
   void load_star(int v)
   {
@@ -222,38 +188,19 @@ private:
     star_.push_back({mesh_.point(f[0]), mesh_.point(f[1]), mesh_.point(f[2])});
   }
 
-  // ---- edges
-
-  /// The worst cells of the best triangulations of all parts of the ring, as far as they are better than a bound, and
-  /// where the triangle at their ends has its tip.
-  void triangulate_ring(double bound, int a, int b)
+  void load_star_of_cavity()
   {
-    const std::size_t n = ring_.size();
-    for (std::size_t i = 0; i + 1 < n; ++i) best_[i][i + 1] = HUGE_VAL;
-    for (std::size_t length = 2; length < n; ++length)
-      for (std::size_t i = 0; i + length < n; ++i) {
-        const std::size_t j = i + length;
-        best_[i][j] = -HUGE_VAL;
-        for (std::size_t k = i + 1; k < j; ++k) {
-          double q = (std::min)(best_[i][k], best_[k][j]);
-          if (q > (std::max)(best_[i][j], bound)) q = (std::min)(q, quality({ring_[i], ring_[k], ring_[j], b}));
-          if (q > (std::max)(best_[i][j], bound)) q = (std::min)(q, quality({ring_[i], ring_[j], ring_[k], a}));
-          if (q > best_[i][j]) best_[i][j] = q, tip_[i][j] = k;
-        }
-      }
+    star_.clear();
+    for (const Facet_vertices& f : cavity_.outer_facets()) add_to_star(f);
   }
 
-  void add_triangulation(std::size_t i, std::size_t j, int a, int b)
+  /// Replaces the cells of the cavity by those of a vertex.
+  bool fill_cavity(int v)
   {
-    if (j < i + 2) return;
-    const std::size_t k = tip_[i][j];
-    made_.push_back({ring_[i], ring_[k], ring_[j], b});
-    made_.push_back({ring_[i], ring_[j], ring_[k], a});
-    add_triangulation(i, k, a, b);
-    add_triangulation(k, j, a, b);
+    made_.clear();
+    cavity_.append_cells(v, made_);
+    return mesh_.replace(cavity_.cells(), made_);
   }
-
-  // ---- facets
 
   /// What becomes of the side uv of a facet uvw to be removed: a cell with the new edge, or the facet beyond it is
   /// removed as well, if that is better. Returns the worst cell made.
@@ -286,96 +233,14 @@ private:
     return here;
   }
 
-  // ---- cavities
-
-  bool is_in_cavity(int c) const { return std::find(cells_.begin(), cells_.end(), c) != cells_.end(); }
-
-  /// The outer facets of `cells_`, and what is beyond them.
-  void load_cavity()
-  {
-    outer_.clear();
-    beyond_.clear();
-    for (const int c : cells_)
-      for (int i = 0; i < 4; ++i) {
-        const int n = mesh_.cell(c).neighbours[static_cast<std::size_t>(i)];
-        if (n != Mesh::none && is_in_cavity(n)) continue;
-        outer_.push_back(mesh_.facet(c, i));
-        beyond_.push_back(mesh_.neighbour(c, i));
-      }
-  }
-
-  void load_star_of_cavity()
-  {
-    star_.clear();
-    for (const Facet_vertices& f : outer_) add_to_star(f);
-  }
-
-  const std::vector<int>& link_vertices()
-  {
-    link_.clear();
-    for (const Facet_vertices& f : outer_) link_.insert(link_.end(), f.begin(), f.end());
-    std::sort(link_.begin(), link_.end());
-    link_.erase(std::unique(link_.begin(), link_.end()), link_.end());
-    return link_;
-  }
-
-  /// Takes the cell beyond the facet into the cavity with which p makes the worst cell, unless that would swallow a
-  /// vertex; false if there is none.
-  bool grow_cavity(const Point& p)
-  {
-    order_.clear();
-    for (std::size_t k = 0; k < outer_.size(); ++k)
-      if (beyond_[k] != Mesh::none) order_.emplace_back(Star_optimiser_3<K>::quality(p, star_[k]), k);
-    std::sort(order_.begin(), order_.end());
-    for (std::size_t i = 0; i < (std::min)(order_.size(), std::size_t(3)); ++i)
-      if (may_take(beyond_[order_[i].second])) {
-        cells_.push_back(beyond_[order_[i].second]);
-        return true;
-      }
-    return false;
-  }
-
-  /// The surface of the cavity has to stay a sphere with all its vertices: the new cell has one facet in common with it
-  /// and its fourth vertex isn't there yet, or two facets, and the edge opposite to their common one isn't there yet.
-  bool may_take(int c) const
-  {
-    int common = 0;
-    std::array<bool, 4> is_common{};
-    for (std::size_t i = 0; i < 4; ++i) {
-      const int n = mesh_.cell(c).neighbours[i];
-      is_common[i] = n != Mesh::none && is_in_cavity(n);
-      common += is_common[i];
-    }
-    const auto& v = mesh_.cell(c).vertices;
-    const auto is_on_surface = [this](int w) {
-      return std::any_of(outer_.begin(), outer_.end(), [w](const Facet_vertices& f) { return contains(f, w); });
-    };
-    if (common == 1) {
-      for (std::size_t i = 0; i < 4; ++i)
-        if (is_common[i]) return !is_on_surface(v[i]);
-    }
-    if (common == 2) { // the edge that becomes an inner one; the opposite one must be new
-      int a = Mesh::none, b = Mesh::none;
-      for (std::size_t i = 0; i < 4; ++i)
-        if (is_common[i]) (a == Mesh::none ? a : b) = v[i];
-      return std::none_of(outer_.begin(), outer_.end(),
-                          [a, b](const Facet_vertices& f) { return contains(f, a) && contains(f, b); });
-    }
-    return false;
-  }
-
   Mesh& mesh_;
   Local_counts_3 counts_;
   Star_optimiser_3<K> optimiser_;
-  int last_inserted_ = Mesh::none;
-  std::vector<int> cells_, ring_, link_;
-  std::array<std::array<double, most_around>, most_around> best_{};
-  std::array<std::array<std::size_t, most_around>, most_around> tip_{};
+  Ring_triangulation_3<K> ring_triangulation_;
+  Cavity_3<K> cavity_;
+  std::vector<int> cells_, ring_;
   std::vector<Cell_vertices> made_;
-  std::vector<Facet_vertices> outer_; ///< of the cavity
-  std::vector<int> beyond_;           ///< cells beyond them, or none
   std::vector<typename Star_optimiser_3<K>::Facet> star_;
-  std::vector<std::pair<double, std::size_t>> order_;
 };
 
 } // namespace weft::internal

@@ -6,7 +6,7 @@
 #define WEFT_SPATIAL_LOCAL_FIXED_FACETS_BOUND_3_H
 
 #include <weft/spatial/local/Editable_mesh_3.h>
-#include <weft/spatial/local/star_optimiser_3.h>
+#include <weft/spatial/local/Star_optimiser_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>

@@ -9,12 +9,12 @@
 #ifndef WEFT_SPATIAL_LOCAL_IMPROVE_FIXED_3_H
 #define WEFT_SPATIAL_LOCAL_IMPROVE_FIXED_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/run/Run.h>
 #include <weft/spatial/local/Editable_mesh_3.h>
 #include <weft/spatial/local/fixed_facets_bound_3.h>
 #include <weft/spatial/local/Improve_options_3.h>
 #include <weft/spatial/local/Local_operations_3.h>
-#include <weft/spatial/local/star_optimiser_3.h>
+#include <weft/spatial/local/Star_optimiser_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -40,8 +40,10 @@ public:
   using Mesh = Editable_mesh_3<K>;
   using Point = typename K::Point_3;
 
-  Fixed_improver_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options)
+  /// \param run has to live as long as this object.
+  Fixed_improver_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options, Run& run)
       : options_(options),
+        run_(run),
         mesh_(mesh, options.fixed_vertices),
         operations_(mesh_),
         target_(quality_of_angle_3(options.min_dihedral_angle)),
@@ -50,7 +52,7 @@ public:
         vertices_(mesh.points.size())
   {}
 
-  Stop_reason run()
+  void improve()
   {
     if (options_.min_dihedral_angle == 0) target_ = enough_ = 1e-15; // only untangling
     int idle = 0;
@@ -61,11 +63,10 @@ public:
       // Most of what can be done is done by single changes; what is left then is worth more.
       work_on(bad, pass < plain_passes ? 0 : idle + 1);
       mesh_.compact();
-      if (stop_reason_ != Stop_reason::criteria_met) break;
+      if (run_.is_stopped()) break;
       const Standing after = standing(bad_cells());
       idle = after.is_clearly_better_than(before) ? 0 : idle + 1;
     }
-    return stop_reason_;
   }
 
   const Mesh& mesh() const { return mesh_; }
@@ -113,18 +114,10 @@ private:
 
   bool may_go_on(std::size_t bad)
   {
-    if (timer_.seconds() >= options_.time_limit) return stop(Stop_reason::time_limit);
+    if (!run_.has_time()) return false;
     const std::size_t vertices = vertices_ + operations_.counts().insertions - operations_.counts().contractions;
-    if (vertices >= options_.max_vertices) return stop(Stop_reason::vertex_budget);
-    if (options_.visitor && !options_.visitor({Stage::polishing, vertices, bad, timer_.seconds()}))
-      return stop(Stop_reason::cancelled);
-    return true;
-  }
-
-  bool stop(Stop_reason reason)
-  {
-    stop_reason_ = reason;
-    return false;
+    if (vertices >= options_.max_vertices) return run_.stop(Stop_reason::vertex_budget);
+    return run_.visit(vertices, bad);
   }
 
   /// \param effort 0: single changes only; more: so many times as many trials of several changes at once.
@@ -135,7 +128,7 @@ private:
       if (done++ % 32 == 0 && !may_go_on(bad.size() - done)) return;
       if (!mesh_.cell(c).is_alive || operations_.quality(c) >= target_) continue;
       mesh_.begin();
-      if (improve(c, true) || effort == 0) continue;
+      if (improve_cell(c, true) || effort == 0) continue;
       const int trials = effort * (done <= worst_few ? 24 : 2);
       for (int trial = 0; trial < trials && mesh_.cell(c).is_alive; ++trial)
         if (shake(c, trial)) break;
@@ -143,7 +136,7 @@ private:
   }
 
   /// The first single change that helps.
-  bool improve(int c, bool with_insertion)
+  bool improve_cell(int c, bool with_insertion)
   {
     const auto vertices = mesh_.cell(c).vertices;
     bool smoothed = false;
@@ -239,7 +232,7 @@ private:
     std::sort(bad.begin(), bad.end());
     bool changed = false;
     for (std::size_t k = 0; k < (std::min)(bad.size(), std::size_t(12)); ++k)
-      if (mesh_.cell(bad[k].second).is_alive) changed = improve(bad[k].second, false) || changed;
+      if (mesh_.cell(bad[k].second).is_alive) changed = improve_cell(bad[k].second, false) || changed;
     return changed;
   }
 
@@ -251,13 +244,12 @@ private:
   }
 
   const Improve_options_3& options_;
+  Run& run_;
   Mesh mesh_;
   Local_operations_3<K> operations_;
   double target_, enough_;
   std::mt19937 random_;
   std::size_t vertices_;
-  Timer timer_;
-  Stop_reason stop_reason_ = Stop_reason::criteria_met;
 };
 
 /// Improves a mesh and keeps its boundary and interfaces exactly.
@@ -265,13 +257,15 @@ template <class K>
 Tetrahedral_mesh_3<K> improve_fixed_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_options_3& options,
                                       Improve_report_3& report)
 {
-  Lap_timer lap;
-  Fixed_improver_3<K> improver(mesh, options);
-  report.stage_seconds.emplace_back("initialisation", lap.seconds());
-  report.stop_reason = improver.run();
-  report.stage_seconds.emplace_back("local changes", lap.seconds());
+  Run run(options.visitor, options.time_limit);
+  run.begin_stage("initialisation", Stage::polishing);
+  Fixed_improver_3<K> improver(mesh, options, run);
+  run.begin_stage("local changes", Stage::polishing);
+  improver.improve();
+  run.begin_stage("bound", Stage::polishing);
   report.boundary_bound = fixed_facets_bound_3(improver.mesh()); // now: around inverted cells there are no angles
-  report.stage_seconds.emplace_back("bound", lap.seconds());
+  run.end_stage();
+  run.report(report);
   const Local_counts_3& counts = improver.counts();
   report.moves = counts.moves;
   report.insertions = counts.insertions;

@@ -75,7 +75,7 @@ private:
 
   /// Collects the edges of the domain's cells, each once: cells list their edges at the vertex with the smaller number,
   /// where a mark by vertex sorts out those seen before. Circulating around every edge to see whether a cell there
-  /// belongs to the domain takes eight times as long.
+  /// belongs to the domain is slower.
   void load_edges(const Restricted& mesh)
   {
     list_cell_edges(mesh);

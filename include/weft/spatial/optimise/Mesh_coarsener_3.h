@@ -6,7 +6,7 @@
 #define WEFT_SPATIAL_OPTIMISE_MESH_COARSENER_3_H
 
 #include <weft/internal/boxes/nearest_point_3.h>
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>

@@ -6,7 +6,7 @@
 #define WEFT_SPATIAL_OPTIMISE_MESH_SMOOTHER_3_H
 
 #include <weft/internal/parallel_for.h>
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Dynamic_sizing_3.h>
@@ -136,8 +136,7 @@ private:
     report_.position_seconds += lap.seconds();
   }
 
-  /// The cells around every vertex, by one pass over all cells, which takes a third of the time of walking around
-  /// every vertex.
+  /// The cells around every vertex, by one pass over all cells, which is faster than walking around every vertex.
   void list_stars()
   {
     cells_.clear();

@@ -5,7 +5,7 @@
 #ifndef WEFT_SPATIAL_OPTIMISE_MOVE_SHORTENER_3_H
 #define WEFT_SPATIAL_OPTIMISE_MOVE_SHORTENER_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>

@@ -7,7 +7,7 @@
 #ifndef WEFT_SPATIAL_OPTIMISE_SLIVER_MENDER_3_H
 #define WEFT_SPATIAL_OPTIMISE_SLIVER_MENDER_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>
 #include <weft/spatial/optimise/Vertex_perturber_3.h>

@@ -5,7 +5,7 @@
 #ifndef WEFT_SPATIAL_OPTIMISE_SLIVER_PERTURBER_3_H
 #define WEFT_SPATIAL_OPTIMISE_SLIVER_PERTURBER_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>

@@ -7,7 +7,7 @@
 
 #include <weft/errors.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
-#include <weft/spatial/restricted/Relocator_3.h>
+#include <weft/spatial/restricted/Relocation_counts_3.h>
 
 #include <cstddef>
 #include <functional>

@@ -8,7 +8,7 @@
 #ifndef WEFT_SPATIAL_OPTIMISE_SMOOTH_3_H
 #define WEFT_SPATIAL_OPTIMISE_SMOOTH_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/optimise/Mesh_smoother_3.h>

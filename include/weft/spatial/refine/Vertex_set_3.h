@@ -6,8 +6,8 @@
 #ifndef WEFT_SPATIAL_REFINE_VERTEX_SET_3_H
 #define WEFT_SPATIAL_REFINE_VERTEX_SET_3_H
 
-#include <weft/spatial/criteria/bad_elements_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/criteria/visit_bad_elements_3.h>
 #include <weft/spatial/restricted/Vertex_transaction_3.h>
 
 #include <CGAL/number_utils.h>

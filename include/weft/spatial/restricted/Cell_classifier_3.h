@@ -9,7 +9,7 @@
 //
 // After a sweep of smoothing all cells are new. Neighbours, labels and circumcenters of new cells lie in arrays of
 // their own, each cell is visited once to fill them and once to hear of its label, and no records are made of Voronoi
-// edges without a crossing, which are four out of five: without all that, this took a quarter longer.
+// edges without a crossing, which are most.
 
 #ifndef WEFT_SPATIAL_RESTRICTED_CELL_CLASSIFIER_3_H
 #define WEFT_SPATIAL_RESTRICTED_CELL_CLASSIFIER_3_H

@@ -6,8 +6,9 @@
 #ifndef WEFT_SPATIAL_RESTRICTED_MESH_RELOCATION_3_H
 #define WEFT_SPATIAL_RESTRICTED_MESH_RELOCATION_3_H
 
-#include <weft/internal/timer.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
+#include <weft/spatial/restricted/Relocation_counts_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
@@ -138,8 +139,8 @@ private:
     return mesh_.tr_->number_of_vertices() == points.size() + 8;
   }
 
-  /// Part of the vertices to move one by one rather than to build anew: a vertex by itself takes more than ten times as
-  /// long as in a new triangulation.
+  /// Part of the vertices to move one by one rather than to build anew: a vertex by itself takes much longer than in a
+  /// new triangulation.
   static constexpr double most_alone = 0.05;
   /// The same where those vertices may as well stay: flips then take less time than building anew.
   static constexpr double most_staying = 0.5;

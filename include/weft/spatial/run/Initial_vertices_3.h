@@ -7,7 +7,7 @@
 #define WEFT_SPATIAL_RUN_INITIAL_VERTICES_3_H
 
 #include <weft/spatial/criteria/Criteria_3.h>
-#include <weft/spatial/refine/seed_lattice_3.h>
+#include <weft/spatial/refine/interior_lattice_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <cstddef>

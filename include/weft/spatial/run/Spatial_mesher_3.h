@@ -16,13 +16,13 @@
 #include <weft/spatial/optimise/coarsen_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
-#include <weft/spatial/refine/seed_lattice_3.h>
+#include <weft/spatial/refine/interior_lattice_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
+#include <weft/spatial/run/fill_report_3.h>
 #include <weft/spatial/run/Initial_vertices_3.h>
 #include <weft/spatial/run/Refinement_3.h>
-#include <weft/spatial/run/report_3.h>
 #include <weft/spatial/run/restart_where_bad_3.h>
 
 #include <algorithm>

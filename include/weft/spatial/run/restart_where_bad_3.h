@@ -6,10 +6,10 @@
 #ifndef WEFT_SPATIAL_RUN_RESTART_WHERE_BAD_3_H
 #define WEFT_SPATIAL_RUN_RESTART_WHERE_BAD_3_H
 
-#include <weft/spatial/criteria/bad_elements_3.h>
+#include <weft/spatial/criteria/visit_bad_elements_3.h>
 #include <weft/spatial/refine/Vertex_set_3.h>
+#include <weft/spatial/run/fill_report_3.h>
 #include <weft/spatial/run/Refinement_3.h>
-#include <weft/spatial/run/report_3.h>
 
 #include <algorithm>
 #include <cmath>

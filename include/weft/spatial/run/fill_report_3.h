@@ -2,11 +2,11 @@
 //
 // Fills the report of a spatial mesher: every element is measured once more against the criteria as they were asked.
 
-#ifndef WEFT_SPATIAL_RUN_REPORT_3_H
-#define WEFT_SPATIAL_RUN_REPORT_3_H
+#ifndef WEFT_SPATIAL_RUN_FILL_REPORT_3_H
+#define WEFT_SPATIAL_RUN_FILL_REPORT_3_H
 
 #include <weft/report.h>
-#include <weft/spatial/criteria/bad_elements_3.h>
+#include <weft/spatial/criteria/visit_bad_elements_3.h>
 #include <weft/spatial/mesh/check_manifold_3.h>
 #include <weft/spatial/mesh/quality_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
@@ -92,4 +92,4 @@ void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteri
 
 } // namespace weft::internal
 
-#endif // WEFT_SPATIAL_RUN_REPORT_3_H
+#endif // WEFT_SPATIAL_RUN_FILL_REPORT_3_H

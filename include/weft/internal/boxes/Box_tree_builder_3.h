@@ -4,8 +4,8 @@
 // 16 bins along each axis (Wald: "On fast construction of SAH-based bounding volume hierarchies", 2007). Not meant for
 // users.
 
-#ifndef WEFT_INTERNAL_BOXES_BUILD_BOXES_3_H
-#define WEFT_INTERNAL_BOXES_BUILD_BOXES_3_H
+#ifndef WEFT_INTERNAL_BOXES_BOX_TREE_BUILDER_3_H
+#define WEFT_INTERNAL_BOXES_BOX_TREE_BUILDER_3_H
 
 #include <algorithm>
 #include <array>
@@ -194,4 +194,4 @@ private:
 
 } // namespace weft::internal
 
-#endif // WEFT_INTERNAL_BOXES_BUILD_BOXES_3_H
+#endif // WEFT_INTERNAL_BOXES_BOX_TREE_BUILDER_3_H

@@ -5,8 +5,8 @@
 // than their target size, and triangles whose height over a constrained edge says how wide a channel is there. Only
 // what sees each other through the domain counts. They are the sources of a Lipschitz field.
 
-#ifndef WEFT_PLANAR_REFINE_INPUT_GRADING_2_H
-#define WEFT_PLANAR_REFINE_INPUT_GRADING_2_H
+#ifndef WEFT_PLANAR_REFINE_GRADE_INPUT_2_H
+#define WEFT_PLANAR_REFINE_GRADE_INPUT_2_H
 
 #include <weft/internal/as_index.h>
 #include <weft/planar/refine/sample_constraints_2.h>
@@ -110,4 +110,4 @@ bool grade_input_2(Mesh& mesh, const Sizing& sizing, std::size_t max_vertices, c
 
 } // namespace weft::internal
 
-#endif // WEFT_PLANAR_REFINE_INPUT_GRADING_2_H
+#endif // WEFT_PLANAR_REFINE_GRADE_INPUT_2_H

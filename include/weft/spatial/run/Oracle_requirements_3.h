@@ -3,10 +3,10 @@
 // What spatial meshers require of a domain oracle at compile time, as one sentence for each member that is missing. Not
 // meant for users: they read doc/concepts/DomainOracle_3.h.
 
-#ifndef WEFT_SPATIAL_RUN_REQUIRE_ORACLE_3_H
-#define WEFT_SPATIAL_RUN_REQUIRE_ORACLE_3_H
+#ifndef WEFT_SPATIAL_RUN_ORACLE_REQUIREMENTS_3_H
+#define WEFT_SPATIAL_RUN_ORACLE_REQUIREMENTS_3_H
 
-#include <weft/internal/answers.h>
+#include <weft/internal/Answers.h>
 #include <weft/report.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
@@ -285,4 +285,4 @@ void complain_about_arguments_3()
 
 } // namespace weft::internal
 
-#endif // WEFT_SPATIAL_RUN_REQUIRE_ORACLE_3_H
+#endif // WEFT_SPATIAL_RUN_ORACLE_REQUIREMENTS_3_H

@@ -3,8 +3,8 @@
 // Reads surfaces from PLY files, text or binary of either byte order: the coordinates of the vertices and the corners
 // of the faces; all other elements and properties are passed over.
 
-#ifndef WEFT_IO_INTERNAL_SURFACE_PLY_H
-#define WEFT_IO_INTERNAL_SURFACE_PLY_H
+#ifndef WEFT_IO_INTERNAL_READ_PLY_SURFACE_H
+#define WEFT_IO_INTERNAL_READ_PLY_SURFACE_H
 
 #include <weft/errors.h>
 #include <weft/IO/internal/Line_reader.h>
@@ -294,4 +294,4 @@ Polygon_soup_3<K> read_ply_surface(const std::string& filename)
 
 } // namespace weft::internal
 
-#endif // WEFT_IO_INTERNAL_SURFACE_PLY_H
+#endif // WEFT_IO_INTERNAL_READ_PLY_SURFACE_H

@@ -3,8 +3,8 @@
 // All elements of a restricted Delaunay triangulation that violate its criteria: what reports count, what creases are
 // blamed for, and where refinement starts again.
 
-#ifndef WEFT_SPATIAL_CRITERIA_BAD_ELEMENTS_3_H
-#define WEFT_SPATIAL_CRITERIA_BAD_ELEMENTS_3_H
+#ifndef WEFT_SPATIAL_CRITERIA_VISIT_BAD_ELEMENTS_3_H
+#define WEFT_SPATIAL_CRITERIA_VISIT_BAD_ELEMENTS_3_H
 
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
@@ -55,4 +55,4 @@ void visit_bad_elements(const Restricted& mesh, const Criteria_3<typename Restri
 
 } // namespace weft::internal
 
-#endif // WEFT_SPATIAL_CRITERIA_BAD_ELEMENTS_3_H
+#endif // WEFT_SPATIAL_CRITERIA_VISIT_BAD_ELEMENTS_3_H

@@ -3,11 +3,11 @@
 // Creases that were found by angle and that no mesh of the asked size and shape can follow: which ones those are, and
 // the domain without them, whose patches go on across. Scanned surfaces have folds that look sharp here and there.
 
-#ifndef WEFT_SPATIAL_RUN_GIVE_UP_CREASES_3_H
-#define WEFT_SPATIAL_RUN_GIVE_UP_CREASES_3_H
+#ifndef WEFT_SPATIAL_RUN_DROP_CREASES_3_H
+#define WEFT_SPATIAL_RUN_DROP_CREASES_3_H
 
-#include <weft/spatial/criteria/bad_elements_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/criteria/visit_bad_elements_3.h>
 #include <weft/spatial/surface/derive_features_3.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 #include <weft/spatial/surface/surface_topology_3.h>
@@ -85,4 +85,4 @@ std::size_t drop_creases(const std::vector<char>& is_dropped, Piecewise_smooth_c
 
 } // namespace weft::internal
 
-#endif // WEFT_SPATIAL_RUN_GIVE_UP_CREASES_3_H
+#endif // WEFT_SPATIAL_RUN_DROP_CREASES_3_H

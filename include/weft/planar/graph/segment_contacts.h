@@ -4,8 +4,8 @@
 // intersection of boxes (Zomorodian and Edelsbrunner, "Fast software for box intersections", 2002), so the cost is
 // O(n log² n + pairs of overlapping boxes); exact predicates decide about each of them.
 
-#ifndef WEFT_PLANAR_GRAPH_PSLG_CONTACTS_H
-#define WEFT_PLANAR_GRAPH_PSLG_CONTACTS_H
+#ifndef WEFT_PLANAR_GRAPH_SEGMENT_CONTACTS_H
+#define WEFT_PLANAR_GRAPH_SEGMENT_CONTACTS_H
 
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
@@ -99,4 +99,4 @@ Segment_contacts segment_contacts(const std::vector<typename K::Point_2>& points
 
 } // namespace weft::internal
 
-#endif // WEFT_PLANAR_GRAPH_PSLG_CONTACTS_H
+#endif // WEFT_PLANAR_GRAPH_SEGMENT_CONTACTS_H

@@ -3,8 +3,8 @@
 // Reads surfaces from STL files, text or binary. Every facet of an STL file has its own corners: those with exactly the
 // same coordinates become one point. Normals and attributes are passed over.
 
-#ifndef WEFT_IO_INTERNAL_SURFACE_STL_H
-#define WEFT_IO_INTERNAL_SURFACE_STL_H
+#ifndef WEFT_IO_INTERNAL_READ_STL_SURFACE_H
+#define WEFT_IO_INTERNAL_READ_STL_SURFACE_H
 
 #include <weft/IO/internal/Line_reader.h>
 #include <weft/spatial/surface/Polygon_soup_3.h>
@@ -137,4 +137,4 @@ Polygon_soup_3<K> read_stl_surface(const std::string& filename)
 
 } // namespace weft::internal
 
-#endif // WEFT_IO_INTERNAL_SURFACE_STL_H
+#endif // WEFT_IO_INTERNAL_READ_STL_SURFACE_H

@@ -3,10 +3,10 @@
 // What planar meshers require of their arguments at compile time, as one sentence for each mistake. Not meant for
 // users.
 
-#ifndef WEFT_PLANAR_RUN_REQUIRE_PLANAR_2_H
-#define WEFT_PLANAR_RUN_REQUIRE_PLANAR_2_H
+#ifndef WEFT_PLANAR_RUN_PLANAR_REQUIREMENTS_2_H
+#define WEFT_PLANAR_RUN_PLANAR_REQUIREMENTS_2_H
 
-#include <weft/internal/answers.h>
+#include <weft/internal/Answers.h>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/number_utils.h>
@@ -109,4 +109,4 @@ struct Planar_requirements_2<Cdt, Sizing, false> : Mesh_triangulation_requiremen
 
 } // namespace weft::internal
 
-#endif // WEFT_PLANAR_RUN_REQUIRE_PLANAR_2_H
+#endif // WEFT_PLANAR_RUN_PLANAR_REQUIREMENTS_2_H

@@ -5,8 +5,8 @@
 // sqrt(3)/2. No mesh with edges up to a and fewer vertices is known that refinement could find: circumcenters inserted
 // one after the other leave about twice as many.
 
-#ifndef WEFT_SPATIAL_REFINE_SEED_LATTICE_3_H
-#define WEFT_SPATIAL_REFINE_SEED_LATTICE_3_H
+#ifndef WEFT_SPATIAL_REFINE_INTERIOR_LATTICE_3_H
+#define WEFT_SPATIAL_REFINE_INTERIOR_LATTICE_3_H
 
 #include <weft/spatial/restricted/spatial_order_3.h>
 
@@ -90,4 +90,4 @@ void drop_encroaching(const Restricted& mesh, double spacing, double clearance, 
 
 } // namespace weft::internal
 
-#endif // WEFT_SPATIAL_REFINE_SEED_LATTICE_3_H
+#endif // WEFT_SPATIAL_REFINE_INTERIOR_LATTICE_3_H

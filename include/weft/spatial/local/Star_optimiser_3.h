@@ -39,6 +39,13 @@ double cell_quality_3(const Point& a, const Point& b, const Point& c, const Poin
   return (std::min)(0.0, dot_product(cross_product(u, v), w) / (6 * mean * mean * mean));
 }
 
+/// The same of vertices of a mesh.
+template <class Mesh>
+double cell_quality_3(const Mesh& mesh, const typename Mesh::Cell_vertices& v)
+{
+  return cell_quality_3(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3]));
+}
+
 /// The quality of a cell whose smallest dihedral angle is that many degrees.
 inline double quality_of_angle_3(double degrees)
 {

@@ -3,8 +3,8 @@
 // The sizes that a mesh has: edge lengths of equilateral triangles as large as those around each vertex, evened out
 // over neighbours. Areas count, not edges, so that a mesh keeps its number of vertices however thin its triangles are.
 
-#ifndef WEFT_PLANAR_RUN_VERTEX_DENSITY_2_H
-#define WEFT_PLANAR_RUN_VERTEX_DENSITY_2_H
+#ifndef WEFT_PLANAR_RUN_VERTEX_DENSITY_SIZING_2_H
+#define WEFT_PLANAR_RUN_VERTEX_DENSITY_SIZING_2_H
 
 #include <weft/sizing/Background_sizing_2.h>
 
@@ -107,4 +107,4 @@ private:
 
 } // namespace weft::internal
 
-#endif // WEFT_PLANAR_RUN_VERTEX_DENSITY_2_H
+#endif // WEFT_PLANAR_RUN_VERTEX_DENSITY_SIZING_2_H
