@@ -37,10 +37,11 @@ using Field = std::function<double(const Point&)>;
 
 // ---- Checks
 
+/// Exactly, without a tolerance.
 inline Cdt triangulate(const Pslg& pslg, weft::Crossings crossings = weft::Crossings::refuse)
 {
   Cdt cdt;
-  weft::insert_pslg(cdt, pslg, {crossings});
+  weft::insert_pslg(cdt, pslg, {crossings, 0});
   weft::mark_domain(cdt, pslg);
   return cdt;
 }

@@ -87,7 +87,7 @@ void check_area(const Cdt& cdt, const Pslg_2<K>& pslg, Validity_2& validity)
 {
   Mesh_triangulation_2<K> input;
   try {
-    insert_pslg(input, pslg, {Crossings::split});
+    insert_pslg(input, pslg, {Crossings::split, 0});
     mark_domain(input, pslg);
   } catch (const Domain_error& error) {
     validity.add(Fault_kind::domain, std::string("the input has no domain: ") + error.what());
