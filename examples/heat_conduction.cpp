@@ -48,7 +48,7 @@ Mesh make_mesh(const Surface& surface, double size)
   criteria.approximation = 0.05 * size;
   const auto result = weft::make_mesh_3(domain, criteria);
   std::cout << result.report;
-  return weft::tetrahedral_mesh(result.mesh);
+  return weft::tetrahedral_mesh(result.restricted);
 }
 //! [mesh]
 
@@ -76,14 +76,14 @@ void add_conduction(const Mesh& mesh, double k, System& system)
 {
   for (const auto& cell : mesh.cells) {
     Eigen::Matrix3d edges; // from the first vertex to the other three
-    for (int i = 0; i < 3; ++i) edges.col(i) = coordinates(mesh, cell[i + 1]) - coordinates(mesh, cell[0]);
+    for (unsigned i = 0; i < 3; ++i) edges.col(i) = coordinates(mesh, cell[i + 1]) - coordinates(mesh, cell[0]);
     const double volume = edges.determinant() / 6;
     Eigen::Matrix<double, 4, 3> gradients;
     gradients.bottomRows<3>() = edges.inverse();
     gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
     const Eigen::Matrix4d local = k * volume * gradients * gradients.transpose();
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) system.add(cell[i], cell[j], local(i, j));
+    for (unsigned i = 0; i < 4; ++i)
+      for (unsigned j = 0; j < 4; ++j) system.add(cell[i], cell[j], local(i, j));
   }
 }
 //! [assemble]

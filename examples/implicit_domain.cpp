@@ -24,12 +24,12 @@ int main()
 
   const auto ball = [](const K::Point_3& p) { return p.x() * p.x() + p.y() * p.y() + p.z() * p.z() - 1; };
   const weft::Implicit_oracle_3<K, decltype(ball)> whole(ball, box); // inside, where it is negative
-  weft::IO::write_mesh_3("ball.vtu", weft::tetrahedral_mesh(weft::make_mesh_3(whole, criteria).mesh));
+  weft::IO::write_mesh_3("ball.vtu", weft::tetrahedral_mesh(weft::make_mesh_3(whole, criteria).restricted));
 
   const auto label = [&](const K::Point_3& p) { return ball(p) >= 0 ? 0 : p.x() < 0.2 ? 1 : 2; };
   const weft::Labelled_oracle_3<K, decltype(label)> halves(label, box, 3); // labels 0, 1 and 2
   criteria.subdomains[2].size = 0.15;
   const auto result = weft::make_mesh_3(halves, criteria);
   std::cout << result.report;
-  weft::IO::write_mesh_3("halves.vtu", weft::tetrahedral_mesh(result.mesh));
+  weft::IO::write_mesh_3("halves.vtu", weft::tetrahedral_mesh(result.restricted));
 }

@@ -108,7 +108,7 @@ struct Request
   double min_dihedral = 0;
   std::vector<std::string> outputs;
   std::string histogram, report;
-  bool repair = false, quiet = false, approximation_is_given = false;
+  bool repair = false, quiet = false, approximation_is_given = false, must_be_manifold = false;
 
   /// For messages.
   std::string name() const { return inputs.size() == 1 ? inputs.front() : inputs.front() + " and others"; }
@@ -134,7 +134,6 @@ void read_criteria(const command_line::Arguments& arguments, Request& request)
   criteria.facet_shape = shape(arguments, "--facet-shape", criteria.facet_shape);
   criteria.cell_shape = shape(arguments, "--cell-shape", criteria.cell_shape);
   criteria.topology = arguments.has("--topology");
-  criteria.manifold = arguments.has("--manifold");
   request.min_dihedral = arguments.number("--min-dihedral", 0, 90).value_or(0);
   if (request.min_dihedral > regular && request.min_dihedral < 90)
     throw Error("--min-dihedral: '" + arguments.value("--min-dihedral") +
@@ -149,6 +148,7 @@ void read_criteria(const command_line::Arguments& arguments, Request& request)
   request.options.give_up_creases = !arguments.has("--sharp-angle");
   if (arguments.has("--sharp-angle")) request.features.least_open_crease = 0;
   request.repair = arguments.has("--repair");
+  request.must_be_manifold = arguments.has("--manifold");
 }
 
 void read_options(const command_line::Arguments& arguments, Request& request)
@@ -235,7 +235,7 @@ std::string what_is_missing(const Request& request, const weft::Mesh_report_3& r
   const auto append = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
   if (report.bad_vertices > 0) append(std::to_string(report.bad_vertices) + " vertices without a topological disk");
   if (report.bare_patches > 0) append(std::to_string(report.bare_patches) + " patches without a facet");
-  if (request.criteria.manifold && !report.manifold) append("the boundary isn't a manifold");
+  if (request.must_be_manifold && !report.manifold) append("the boundary isn't a manifold");
   if (smallest_dihedral < request.min_dihedral && request.min_dihedral < regular)
     append("the smallest dihedral angle is " + weft::internal::one_decimal(std::floor(10 * smallest_dihedral) / 10) +
            " degrees, not " + weft::internal::one_decimal(request.min_dihedral));
@@ -295,7 +295,7 @@ Status mesh(const Request& request, const Domain& domain, const CGAL::Bbox_3& bo
   const auto result = make_mesh(domain, criteria, options);
   progress.bar().clear();
 
-  const Mesh tetrahedra = weft::tetrahedral_mesh(result.mesh);
+  const Mesh tetrahedra = weft::tetrahedral_mesh(result.restricted);
   if (tetrahedra.cells.empty())
     throw Error(request.name() + ": no mesh yet, " + name(result.report.stop_reason) + "; nothing is written");
   const weft::Quality_3 quality = weft::measure_quality_3(tetrahedra);

@@ -18,5 +18,5 @@ int main()
   criteria.approximation = 0.05; // facets no farther than this from the surface
   const auto result = weft::make_mesh_3(domain, criteria);
   std::cout << result.report;
-  weft::IO::write_mesh_3("mesh.vtu", weft::tetrahedral_mesh(result.mesh));
+  weft::IO::write_mesh_3("mesh.vtu", weft::tetrahedral_mesh(result.restricted));
 }

@@ -27,7 +27,7 @@ std::vector<std::pair<std::string, weft::Mesh_options_2>> variants()
     return all.back().second;
   };
   add("default");
-  add("seeding_none").seeding = weft::Seeding::none; // batches and relaxation alone, as first published
+  add("seeding_none").seeding = weft::Seeding::none; // from the bare constraints
   add("no_polish").polish = false;
   add("no_grading").grade_input = false;
   add("no_feedback").size_feedback = 0; // Lloyd's iteration proper

@@ -13,6 +13,7 @@
 #include <weft/make_mesh_2.h>
 #include <weft/make_mesh_3.h>
 #include <weft/planar/check/validate_2.h>
+#include <weft/spatial/mesh/validate_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
 
@@ -94,14 +95,31 @@ TEST_CASE("make_mesh_3 and smooth_3 need no more than the concepts of oracles, l
   criteria.size = concepts::SizingField<Point_3, decltype(sizes)>(sizes);
   criteria.approximation = 0.05;
   criteria.cell_demand = concepts::ElementDemand_3<weft::Cell_view_3<K>, decltype(demand)>(demand);
+  const auto facet_demand = [](const weft::Facet_view_3<K>& facet) {
+    return CGAL::squared_distance(*facet.points[0], *facet.center) > 0.02 ? 2. : 0.5;
+  };
+  criteria.facet_demand = concepts::ElementDemand_3<weft::Facet_view_3<K>, decltype(facet_demand)>(facet_demand);
 
   auto result = weft::make_mesh_3(oracle, criteria);
   CHECK(result.report.ok());
   auto expected = weft::make_mesh_3(model, criteria);
-  CHECK(points_of(result.mesh) == points_of(expected.mesh));
+  CHECK(points_of(result.restricted) == points_of(expected.restricted));
 
   const weft::Natural_odt_3 odt;
-  weft::smooth_3(result.mesh, criteria, weft::Smooth_options_3(), concepts::Smoother_3<weft::Natural_odt_3>(odt));
-  weft::smooth_3(expected.mesh, criteria, weft::Smooth_options_3(), odt);
-  CHECK(points_of(result.mesh) == points_of(expected.mesh));
+  weft::smooth_3(result.restricted, criteria, weft::Smooth_options_3(), concepts::Smoother_3<weft::Natural_odt_3>(odt));
+  weft::smooth_3(expected.restricted, criteria, weft::Smooth_options_3(), odt);
+  CHECK(points_of(result.restricted) == points_of(expected.restricted));
+}
+
+TEST_CASE("make_mesh_3 needs no more than the concept says of oracles that are asked for labels first")
+{
+  const Model model = meshing::oracle_of(surfaces::box(1, 1, 1));
+  const concepts::DomainOracle_3<Model, true> oracle(model);
+  weft::Criteria_3<K> criteria;
+  criteria.size = 0.3;
+  const auto result = weft::make_mesh_3(oracle, criteria);
+  CHECK(result.report.ok());
+  const auto mesh = weft::tetrahedral_mesh(result.restricted);
+  CHECK(mesh.cells.size() > 100);
+  CHECK(weft::validate_3(mesh).ok());
 }

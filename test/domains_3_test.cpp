@@ -46,10 +46,10 @@ auto mesh_of(const Oracle& oracle, double size, double approximation, weft::Mesh
   criteria.size = size;
   criteria.approximation = approximation;
   auto result = weft::make_mesh_3(oracle, criteria, options);
-  meshing::check_consistent(result.mesh, result.report);
+  meshing::check_consistent(result.restricted, result.report);
   CHECK(result.report.ok());
   CHECK(result.report.smallest_dihedral >= options.min_dihedral_angle);
-  Mesh mesh = weft::tetrahedral_mesh(result.mesh);
+  Mesh mesh = weft::tetrahedral_mesh(result.restricted);
   weft::Validity_3 validity = weft::validate_3(mesh);
   validity += weft::check_criteria_3(mesh, criteria);
   validity += weft::check_manifold_3(mesh); // subdomain by subdomain
@@ -190,7 +190,7 @@ TEST_CASE("subdomains and patches may have criteria of their own, and demands of
   };
   const auto result = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3());
   CHECK(result.report.ok());
-  const Mesh mesh = weft::tetrahedral_mesh(result.mesh);
+  const Mesh mesh = weft::tetrahedral_mesh(result.restricted);
   const auto longest = [&](const auto& corners) {
     double length = 0;
     for (const std::size_t v : corners)
@@ -286,7 +286,7 @@ TEST_CASE("images of one voxel, with labels that touch at a point, or without se
   options.max_vertices = 20000;
   const auto oracle = oracle_of(corners, 8);
   const auto result = weft::make_mesh_3(oracle, criteria, options);
-  meshing::check_consistent(result.mesh, result.report);
+  meshing::check_consistent(result.restricted, result.report);
   CHECK(result.report.cells > 0);
 
   using Image = weft::Label_image_3;

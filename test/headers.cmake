@@ -19,7 +19,7 @@ foreach(header IN LISTS headers)
 endforeach()
 
 add_library(headers_alone OBJECT EXCLUDE_FROM_ALL ${sources})
-target_link_libraries(headers_alone PRIVATE weft::weft weft_warnings)
+target_link_libraries(headers_alone PRIVATE weft::weft weft_strict_warnings)
 target_compile_options(headers_alone PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0;-g0;-Werror>)
 
 file(CONFIGURE OUTPUT ${generated}/link_twice_main.cpp

@@ -13,6 +13,7 @@
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>
 #include <CGAL/Delaunay_mesher_2.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
@@ -164,6 +165,33 @@ TEST_CASE("without polishing, grading or feedback all criteria are met as well")
       check_all_criteria(domain.pslg, Uniform(0.06), options);
       check_all_criteria(domain.pslg, gentle(), options);
     }
+}
+
+TEST_CASE("without sweeps nothing is relaxed, and all criteria are met as well")
+{
+  Mesh_options_2 options;
+  options.max_sweeps = 0;
+  for (const Domain& domain : domains()) {
+    INFO(domain.name);
+    check_all_criteria(domain.pslg, Uniform(0.06), options);
+    Cdt cdt = triangulate(domain.pslg);
+    CHECK(weft::make_mesh_2(cdt, gentle(), options).sweeps == 0);
+  }
+}
+
+TEST_CASE("a number is a sizing field that is the same everywhere")
+{
+  for (const Domain& domain : domains()) {
+    INFO(domain.name);
+    Cdt by_number = triangulate(domain.pslg), by_field = triangulate(domain.pslg);
+    weft::make_mesh_2(by_number, 0.06);
+    weft::make_mesh_2(by_field, Uniform(0.06));
+    REQUIRE(by_number.number_of_vertices() == by_field.number_of_vertices());
+    CHECK(std::equal(by_number.points_begin(), by_number.points_end(), by_field.points_begin()));
+  }
+  Cdt cdt = triangulate(annulus());
+  CHECK_THROWS_AS(weft::make_mesh_2(cdt, 0), weft::Option_error);
+  CHECK_THROWS_AS(weft::relax_2(cdt, -1.), weft::Option_error);
 }
 
 TEST_CASE("the report says what the mesh is")

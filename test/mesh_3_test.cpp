@@ -115,7 +115,8 @@ TEST_CASE("a box whose faces lie in those of its bounding box, of one or of many
   for (const int n : {1, 4}) {
     const Surface box = surfaces::moved(surfaces::box(n, n, n), 1. / n, 0, 0, 0);
     const Oracle oracle = oracle_of(box);
-    const auto mesh = weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.3, 0.01), refinement()).mesh);
+    const auto mesh =
+        weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.3, 0.01), refinement()).restricted);
     CHECK(volume_of_cells(mesh) == Approx(1).epsilon(1e-12));
     CHECK(area(mesh) == Approx(6).epsilon(1e-12));
   }
@@ -167,7 +168,8 @@ TEST_CASE("scaling by a power of two scales the mesh and changes nothing else")
 {
   const auto mesh_scaled_by = [](double scale) {
     const Oracle oracle = oracle_of(surfaces::moved(surfaces::cylinder(20), scale, 0, 0, 0));
-    return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.5 * scale, 0.02 * scale), refinement()).mesh);
+    return weft::tetrahedral_mesh(
+        weft::make_mesh_3(oracle, criteria_of(0.5 * scale, 0.02 * scale), refinement()).restricted);
   };
   Mesh mesh = mesh_scaled_by(1);
   const Mesh large = mesh_scaled_by(1024);
@@ -249,7 +251,8 @@ TEST_CASE("size and approximation may be fields of the place")
   criteria.size = graded;
   const auto report = check_meshing(sphere, criteria, 0.05);
   criteria.size = 0.08;
-  CHECK(report.vertices < weft::make_mesh_3(oracle_of(sphere), criteria, refinement()).report.vertices);
+  const Oracle whole = oracle_of(sphere);
+  CHECK(report.vertices < weft::make_mesh_3(whole, criteria, refinement()).report.vertices);
 
   // A constant and a field that is constant ask for the same, but the field gets no lattice.
   Options options = refinement();
@@ -260,8 +263,8 @@ TEST_CASE("size and approximation may be fields of the place")
   field.size = [](const Point&) { return 0.3; };
   field.approximation = [](const Point&) { return 0.02; };
   options.size_floor = 1e-4;
-  CHECK(same(weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).mesh),
-             weft::tetrahedral_mesh(weft::make_mesh_3(oracle, field, options).mesh)));
+  CHECK(same(weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).restricted),
+             weft::tetrahedral_mesh(weft::make_mesh_3(oracle, field, options).restricted)));
 
   criteria.approximation = [](const Point& p) { return p.z() > 0 ? 0.005 : 0.05; };
   check_meshing(sphere, criteria, 0.05);
@@ -338,7 +341,7 @@ TEST_CASE("a run is repeatable to the last bit, with any number of threads")
     Options options = refinement();
     options.threads = threads;
     options.seed = seed;
-    return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).mesh);
+    return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).restricted);
   };
   const Mesh first = mesh(1, 0);
   CHECK(first.points.size() > 5000);
@@ -464,13 +467,13 @@ TEST_CASE("creases found by angle are given up where only they keep criteria fro
   CHECK(result.report.creases_given_up > 0);
   CHECK(result.domain->number_of_creases() < complex.creases.size());
   CHECK(result.domain->number_of_creases() > 0);
-  check_consistent(result.mesh, result.report);
+  check_consistent(result.restricted, result.report);
 
   auto given = complex;
   for (auto& crease : given.creases) crease.given = true;
   const auto kept = weft::mesh_surface_3(given, criteria, options);
   CHECK(kept.report.creases_given_up == 0);
-  CHECK(same(weft::tetrahedral_mesh(kept.mesh), weft::tetrahedral_mesh(with_all.mesh)));
+  CHECK(same(weft::tetrahedral_mesh(kept.restricted), weft::tetrahedral_mesh(with_all.restricted)));
 }
 
 TEST_CASE("giving up creases that isn't enough leaves the mesh with all of them")
@@ -571,7 +574,7 @@ TEST_CASE("perturbation is repeatable to the last bit and may be stopped between
   options.min_dihedral_angle = 18;
   const auto first = weft::make_mesh_3(oracle, criteria, options),
              second = weft::make_mesh_3(oracle, criteria, options);
-  CHECK(same(weft::tetrahedral_mesh(first.mesh), weft::tetrahedral_mesh(second.mesh)));
+  CHECK(same(weft::tetrahedral_mesh(first.restricted), weft::tetrahedral_mesh(second.restricted)));
   CHECK(first.report.perturbed > 0);
   CHECK(first.report.smallest_dihedral > first.report.smoothed_smallest_dihedral);
   for (const int calls : {0, 1, 3}) {
@@ -607,9 +610,9 @@ TEST_CASE("a point that is a vertex already isn't inserted again")
 {
   const Oracle oracle = oracle_of(surfaces::cube());
   auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05), refinement());
-  const auto vertices = result.mesh.vertices();
-  for (const auto v : vertices) CHECK(result.mesh.insert(v->point(), v->location()) == v);
-  CHECK(result.mesh.vertices().size() == vertices.size());
+  const auto vertices = result.restricted.vertices();
+  for (const auto v : vertices) CHECK(result.restricted.insert(v->point(), v->location()) == v);
+  CHECK(result.restricted.vertices().size() == vertices.size());
 }
 
 TEST_CASE("edges form one cycle only if that doesn't meet itself")
@@ -638,7 +641,7 @@ TEST_CASE("what disagrees in a restricted triangulation is found")
 {
   const Oracle oracle = oracle_of(surfaces::l_shape());
   auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05), refinement());
-  auto& mesh = result.mesh;
+  auto& mesh = result.restricted;
   const auto faults = [&mesh] { return weft::check_restricted_3(mesh).count(weft::Fault_kind_3::restricted); };
   REQUIRE(faults() == 0);
   using Cell_handle = weft::Restricted_delaunay_3<Oracle>::Cell_handle;
@@ -685,7 +688,7 @@ TEST_CASE("the Steiner point chosen for a cell mends no less than its circumcent
   using Zone = Restricted::Zone;
   const Oracle oracle = oracle_of(surfaces::sphere(3), 0);
   const Criteria loose = criteria_of(0.3, 0.02), criteria = criteria_of(0.2, 0.02);
-  const auto begin = [&] { return std::move(weft::make_mesh_3(oracle, loose, refinement()).mesh); };
+  const auto begin = [&] { return std::move(weft::make_mesh_3(oracle, loose, refinement()).restricted); };
   const auto squared = [](const Point& p, const Point& q) { return CGAL::to_double(CGAL::squared_distance(p, q)); };
   // Marks bad cells as refinement does, and returns them, in an order that doesn't depend on memory.
   const auto mark_bad_cells = [&criteria](const Restricted& mesh) {
@@ -746,7 +749,8 @@ TEST_CASE("a refiner that doesn't look again at what another has settled does th
 {
   for (const Surface& surface : {surfaces::torus(48, 24), surfaces::l_shape(), surfaces::cylinder(40)}) {
     const Oracle oracle = oracle_of(surface);
-    const auto coarse = weft::internal::vertices_of(weft::make_mesh_3(oracle, criteria_of(1, 0.1), refinement()).mesh);
+    const auto coarse =
+        weft::internal::vertices_of(weft::make_mesh_3(oracle, criteria_of(1, 0.1), refinement()).restricted);
     const Criteria criteria = criteria_of(0.5, 0.02);
     const auto refined = [&](bool settles) {
       weft::Restricted_delaunay_3<Oracle> mesh(oracle);
@@ -772,7 +776,7 @@ TEST_CASE("a mesh is built again from its vertices, and what is around bad eleme
 {
   const Oracle oracle = oracle_of(surfaces::l_shape());
   const auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05), refinement());
-  const auto& mesh = result.mesh;
+  const auto& mesh = result.restricted;
   CHECK(weft::internal::bad_balls(mesh, criteria_of(0.5, 0.05), 1e-3).empty());
   const auto all = weft::internal::vertices_of(mesh);
   weft::Restricted_delaunay_3<Oracle> again(oracle);

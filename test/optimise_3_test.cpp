@@ -667,7 +667,8 @@ TEST_CASE("the whole run is the same to the last bit, also for several threads")
     const auto run = [&](int threads) {
       Options options;
       options.threads = threads;
-      return weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), options).mesh);
+      return weft::tetrahedral_mesh(
+          weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), options).restricted);
     };
     const Mesh once = run(1);
     for (const int threads : {1, 2, 4}) CHECK(same(once, run(threads)));
@@ -680,7 +681,8 @@ TEST_CASE("motions and scalings of the input change the angles reached by little
   const auto reached = [](const Surface& surface, double scale) {
     Options options;
     options.min_dihedral_angle = 18;
-    const auto [mesh, report] = weft::make_mesh_3(oracle_of(surface), criteria_of(0.3 * scale, 0.02 * scale), options);
+    const Oracle oracle = oracle_of(surface);
+    const auto report = weft::make_mesh_3(oracle, criteria_of(0.3 * scale, 0.02 * scale), options).report;
     CHECK(report.ok());
     return report.smallest_dihedral;
   };
@@ -741,11 +743,11 @@ TEST_CASE("how far tips and ridges are from a mesh is what brute force says, on 
 {
   visit_rough_spheres(67, [](const Surface& surface, const Oracle& oracle) {
     const auto result = weft::make_mesh_3(oracle, criteria_of(0.4, 0.01), refinement());
-    const weft::internal::Deviation_3<Restricted> deviation(result.mesh);
+    const weft::internal::Deviation_3<Restricted> deviation(result.restricted);
     double height = 0;
-    for (const auto& f : result.mesh.facets())
+    for (const auto& f : result.restricted.facets())
       if (f.cell != Cell_handle()) height = (std::max)(height, std::sqrt(deviation.of(f).height));
-    const auto mesh = weft::tetrahedral_mesh(result.mesh);
+    const auto mesh = weft::tetrahedral_mesh(result.restricted);
     double of_tips = 0;
     for (const Point& p : surface.points) {
       double nearest = HUGE_VAL;

@@ -176,7 +176,7 @@ TEST_CASE("circumcenters of cells don't hang on the order of the vertices")
   const Oracle oracle = oracle_of(surfaces::torus(24, 12));
   const auto result = weft::make_mesh_3(oracle, criteria_of(0.5, 0.05));
   std::array<std::size_t, 4> order = {0, 1, 2, 3};
-  for (const auto c : result.mesh.triangulation().finite_cell_handles()) {
+  for (const auto c : result.restricted.triangulation().finite_cell_handles()) {
     if (c->subdomain() == 0) continue;
     const Point center = weft::internal::circumcenter_of_cell_3<K>(c);
     std::array<Point, 4> p;
@@ -192,7 +192,7 @@ TEST_CASE("vertices on creases may be taken away and put back or left out, and e
 {
   const Oracle oracle = oracle_of(surfaces::cylinder(40)); // two closed creases
   auto result = weft::make_mesh_3(oracle, criteria_of(0.4, 0.02));
-  Restricted& mesh = result.mesh;
+  Restricted& mesh = result.restricted;
   REQUIRE(mesh.creases().edges().size() > 10);
   std::mt19937 random(3);
   const auto criteria = criteria_of(0.4, 0.02);
@@ -367,7 +367,7 @@ TEST_CASE("moves, insertions and removals can be undone to the last cell")
     const Oracle oracle = oracle_of(surface);
     const Criteria criteria = criteria_of(0.3, 0.02);
     auto result = weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement());
-    Restricted& mesh = result.mesh;
+    Restricted& mesh = result.restricted;
     const auto before = cells_of(mesh);
     std::vector<Point> points;
     for (const auto v : mesh.vertices()) points.push_back(v->point());
@@ -492,11 +492,11 @@ TEST_CASE("equal seeds give equal meshes, other seeds others")
     options.directions = directions;
     int calls = 0;
     options.go_on = [&](double) { return ++calls < 40; };
-    const auto report = weft::perturb_slivers_3(result.mesh, criteria, options);
+    const auto report = weft::perturb_slivers_3(result.restricted, criteria, options);
     CHECK((directions == weft::Perturb_directions_3::random) == (report.by_radius + report.by_volume == 0));
     CHECK(report.by_chance > 0);
-    check_sound(result.mesh, oracle, criteria);
-    return weft::tetrahedral_mesh(result.mesh);
+    check_sound(result.restricted, oracle, criteria);
+    return weft::tetrahedral_mesh(result.restricted);
   };
   using weft::Perturb_directions_3;
   const Mesh first = run(0, Perturb_directions_3::combined);

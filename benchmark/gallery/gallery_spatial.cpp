@@ -149,7 +149,7 @@ void add_weft(const Oracle& oracle, const Criteria& criteria, weft::Mesh_options
   const Stopwatch watch;
   const auto result = weft::make_mesh_3(oracle, criteria, options);
   const Gallery_run run{mesher, watch.seconds(), result.report.bad() == 0};
-  const Mesh mesh = weft::tetrahedral_mesh(result.mesh);
+  const Mesh mesh = weft::tetrahedral_mesh(result.restricted);
   gallery.add(run, mesh);
   if (write) gallery.write("weft", mesh);
 }

@@ -394,7 +394,7 @@ inline std::vector<Perturb_run> perturb_runs(const Spatial_domain& domain, const
     const auto criteria = weft_criteria(domain.input(), bounds);
     weft::Mesh_options_3 unperturbed;
     unperturbed.min_dihedral_angle = 0;
-    Weft_mesh mesh = weft::make_mesh_3(domain.oracle(), criteria, unperturbed).mesh;
+    Weft_mesh mesh = weft::make_mesh_3(domain.oracle(), criteria, unperturbed).restricted;
     weft::Perturb_options_3 options;
     for (std::size_t t = 0; t < perturb_targets.size(); ++t) {
       options.target = perturb_targets[t];

@@ -100,7 +100,9 @@ weft::Criteria_3<Spatial_kernel> criteria_of(const Arguments& a)
 std::vector<Stage_picture> make_stages(const Oracle& oracle, const Arguments& a)
 {
   const auto criteria = criteria_of(a);
-  const auto refined = [&] { return weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement()).mesh; };
+  const auto refined = [&] {
+    return weft::make_mesh_3(oracle, criteria, weft::Mesh_options_3::refinement()).restricted;
+  };
   weft::Smooth_options_3 smoothing;
   smoothing.keep_criteria = false;
   smoothing.max_sweeps = static_cast<int>(a["sweeps"]);
@@ -115,8 +117,8 @@ std::vector<Stage_picture> make_stages(const Oracle& oracle, const Arguments& a)
   weft::Mesh_options_3 options;
   options.min_dihedral_angle = a["target"];
   options.time_limit = a["limit"];
-  stages.push_back(
-      {"make_mesh_3 as it is: perturbed", weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).mesh)});
+  stages.push_back({"make_mesh_3 as it is: perturbed",
+                    weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria, options).restricted)});
   return stages;
 }
 

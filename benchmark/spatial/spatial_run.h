@@ -172,7 +172,7 @@ inline void run_weft(const weft::Polyhedral_oracle_3<Spatial_kernel>& oracle, co
   m.skipped = static_cast<double>(report.skipped_queries);
   m.candidates = static_cast<double>(report.candidates);
   if (!thorough) return;
-  const auto mesh = weft::tetrahedral_mesh(result.mesh);
+  const auto mesh = weft::tetrahedral_mesh(result.restricted);
   measure(mesh, input, m);
   weft::Validity_3 validity = weft::validate_3(mesh);
   validity += weft::check_criteria_3(mesh, criteria);

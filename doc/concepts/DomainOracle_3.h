@@ -6,8 +6,8 @@
 #ifndef WEFT_DOC_DOMAIN_ORACLE_3_H
 #define WEFT_DOC_DOMAIN_ORACLE_3_H
 
-#include <weft/spatial/surface/Feature_incidence_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
+#include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -24,23 +24,27 @@ namespace concepts {
 /// domain without folds inherits weft::No_folds_3. One that knows the subdomain of every point inherits
 /// weft::Domain_by_labels_3, which has nearly all members.
 ///
+/// examples/custom_oracle.h is an oracle with all of it.
+///
 /// Models: weft::Polyhedral_oracle_3, weft::Implicit_oracle_3, weft::Labelled_oracle_3, weft::Mesh_domain_oracle_3.
-/// \tparam Model what this archetype passes everything on to; no part of the concept.
+/// \tparam Model what this archetype passes everything on to, and `is_asked_labels_first` which of the two kinds of
+///   oracles it is; no part of the concept.
 /// \ingroup concept_classes
-template <class Model>
+template <class Model, bool is_asked_labels_first = false>
 class DomainOracle_3
 {
 public:
   /// A CGAL kernel with exact predicates whose coordinates are doubles.
   using Kernel = typename Model::Kernel;
   using Point = typename Kernel::Point_3;
+  /// A point of the boundary and its patch: `point`, of type Point, and `patch`, an int.
   using Surface_hit = weft::Surface_hit_3<Kernel>;
 
   /// Whether several threads may ask at once; else the mesher asks from one.
   static constexpr bool is_thread_safe = true;
-  /// Whether locating points is cheaper than intersecting segments with the boundary. If so there must be
-  /// `intersect(p, q, at_p, at_q, hits)`, too, which gets the subdomains of the ends.
-  static constexpr bool labels_first = false;
+  /// Whether locating points is cheaper than finding out from segments where the boundary lies between them. If so
+  /// there must be the `intersect()` below, too, which gets the subdomains of the ends.
+  static constexpr bool labels_first = is_asked_labels_first;
 
   explicit DomainOracle_3(const Model& model) : model_(model) {}
 
@@ -57,6 +61,13 @@ public:
   /// \returns the exclusive or of the subdomains of p and q, which is 0 where they are the same, without ever
   /// contradicting `subdomain()`.
   int intersect(const Point& p, const Point& q, std::vector<Surface_hit>& hits) const
+  {
+    return model_.intersect(p, q, hits);
+  }
+
+  /// The same for ends whose subdomains are known, `at_p` and `at_q`. Only oracles with `labels_first` need it.
+  int intersect(const Point& p, const Point& q, [[maybe_unused]] int at_p, [[maybe_unused]] int at_q,
+                std::vector<Surface_hit>& hits) const
   {
     return model_.intersect(p, q, hits);
   }
@@ -103,7 +114,9 @@ public:
   /// Nearest point of a crease.
   Point project_on_crease(const Point& p, int crease) const { return model_.project_on_crease(p, crease); }
 
-  /// Which creases and patches meet.
+  /// Which creases and patches meet. `weft::Feature_incidence_3()` for a domain without corners and creases;
+  /// `weft::Feature_incidence_3(corners, ends)` for one with that many corners, where `ends` has, for each crease, the
+  /// numbers of the corners at its ends as a std::pair<int, int>, -1 and -1 for a closed one.
   weft::Feature_incidence_3 incidence() const { return model_.incidence(); }
   /// @}
 

@@ -42,7 +42,13 @@ private:
 };
 
 /// A demand on boundary facets, for Criteria_3::facet_demand, or on cells, for Criteria_3::cell_demand. Copied; called
-/// by one thread, often for the same element.
+/// by one thread, often for the same element. examples/custom_criterion.h is one.
+///
+/// A view has pointers to points, of the kernel of the mesh, and what is known of them. weft::Cell_view_3 has the four
+/// `points` of a cell, as a std::array of pointers, the weft::Vertex_location_3 of each in `locations` (`dimension` 0
+/// on a corner, 1 on a crease, 2 on a patch, 3 inside, and `index`, the number of that corner, crease, patch or
+/// subdomain), a pointer to its `circumcenter`, and its `subdomain`. weft::Facet_view_3 has three points and locations,
+/// a pointer to the `center` of its surface Delaunay ball, and its `patch`. Pointers hold during the call alone.
 /// \tparam View weft::Facet_view_3 or weft::Cell_view_3.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
 /// \ingroup concept_classes

@@ -28,7 +28,9 @@ public:
 
   explicit Smoother_3(const Model& model) : model_(model) {}
 
-  /// Called by several threads at once.
+  /// Called by several threads at once. Vertex_handle and Cell_handle are those of weft::Mesh_triangulation_3: a vertex
+  /// has `point()`, `location()` and `id()`, a cell `vertex(i)`, `neighbor(i)`, `subdomain()` and `circumcenter()`.
+  /// examples/custom_smoother.h is a smoother.
   /// \tparam Context weft::Smoothing_context_3: the mesh, sizes, masses of cells, crease edges.
   /// \param v neither a feature vertex nor locked.
   /// \param star all finite cells around v, those outside of the domain included.

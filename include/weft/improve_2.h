@@ -4,6 +4,9 @@
 // constrained Delaunay mesh of the same domain and regions with about the same vertices. The boundary slides along
 // itself, or every edge of it stays.
 //
+//   #include <weft/IO/read_triangle_mesh.h>
+//   #include <weft/IO/write_mesh_2.h>
+//
 //   const auto input = weft::IO::read_triangle_mesh<K>("part.msh");
 //   const auto [mesh, report] = weft::improve_2(input.mesh);
 //   weft::IO::write_mesh_2("better.msh", mesh);
@@ -12,6 +15,8 @@
 #define WEFT_IMPROVE_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/answers.h>
+#include <weft/internal/Run.h>
 #include <weft/planar/mesh/assemble_mesh_2.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/mesh/Scaled_triangle_2.h>
@@ -23,6 +28,7 @@
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -37,6 +43,20 @@ struct Improve_result_2
 };
 
 namespace internal {
+
+template <class Mesh>
+struct Is_triangle_mesh_2 : std::false_type
+{};
+template <class K>
+struct Is_triangle_mesh_2<Triangle_mesh_2<K>> : std::true_type
+{};
+
+/// What is returned after a complaint.
+struct No_result_2
+{
+  int mesh = 0;
+  Improve_report_2 report;
+};
 
 template <class K>
 std::size_t count_inverted(const Triangle_mesh_2<K>& mesh)
@@ -73,7 +93,7 @@ public:
   using Mesh = Triangle_mesh_2<K>;
 
   Optimisation_2(const Mesh& mesh, const Improve_options_2& options)
-      : input_(mesh), options_(options), stays_(mesh.points.size(), false), run_(run_options())
+      : input_(mesh), options_(options), stays_(mesh.points.size(), false), run_(options.visitor, options.time_limit)
   {
     for (const std::size_t v : options.fixed_vertices) {
       if (v >= mesh.points.size()) throw Option_error("there is no vertex " + std::to_string(v) + " to be fixed");
@@ -102,13 +122,6 @@ private:
   static constexpr double most_straight = 20; // degrees that chains turn at vertices where nothing is respaced
   // Longest edges against those of equilateral triangles of the same area, and how fast sizes may grow.
   static constexpr double longest_edge = 1.7, growth = 0.6;
-
-  Mesh_options_2& run_options()
-  {
-    run_options_.time_limit = options_.time_limit;
-    run_options_.visitor = options_.visitor;
-    return run_options_;
-  }
 
   /// The vertices that aren't on the outline and may move.
   std::vector<typename K::Point_2> free_vertices() const
@@ -225,8 +238,7 @@ private:
     Improve_report_2& report = result_.report;
     report.moves = report_.moves + report_.polished;
     report.flips = report_.flips;
-    report.stage_seconds = report_.stage_seconds;
-    report.stop_reason = report_.stop_reason;
+    run_.report(report);
     if (!found_) {
       report.notes.emplace_back("nothing better was found: the mesh is as it was");
       result_.mesh = input_;
@@ -249,8 +261,7 @@ private:
   const Mesh& input_;
   const Improve_options_2& options_;
   std::vector<char> stays_; ///< by vertex
-  Mesh_options_2 run_options_;
-  Mesh_run_2 run_;
+  Run run_;
   Mesh_report_2 report_;
   Improve_result_2<K> result_;
   bool found_ = false; ///< whether the result has a mesh
@@ -274,6 +285,17 @@ Improve_result_2<K> improve_2(const Triangle_mesh_2<K>& mesh, const Improve_opti
   internal::require_structure(mesh);
   return internal::Optimisation_2<K>(mesh, options).run();
 }
+
+/// \cond
+// An overload that only says what is wrong.
+template <class Mesh, std::enable_if_t<!internal::Is_triangle_mesh_2<Mesh>::value, int> = 0>
+internal::No_result_2 improve_2(const Mesh&, const Improve_options_2& = Improve_options_2())
+{
+  static_assert(internal::never_v<Mesh>, "weft: improve_2() takes a weft::Triangle_mesh_2<K>: triangle_mesh_2() makes "
+                                         "one of a triangulation, assemble_mesh_2() of arrays");
+  return {};
+}
+/// \endcond
 
 } // namespace weft
 

@@ -4,6 +4,9 @@
 // that slides on itself the mesh becomes a Delaunay mesh of the same domain with about the same vertices; with a fixed
 // boundary every boundary triangle stays.
 //
+//   #include <weft/IO/read_tetrahedral_mesh.h>
+//   #include <weft/IO/write_mesh_3.h>
+//
 //   const auto input = weft::IO::read_tetrahedral_mesh<K>("part.mesh");
 //   const auto [mesh, report] = weft::improve_3(input.mesh);
 //   weft::IO::write_mesh_3("better.mesh", mesh);
@@ -18,11 +21,13 @@
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/mesh/validate_3.h>
 #include <weft/spatial/run/improve_sliding_3.h>
+#include <weft/spatial/run/require_oracle_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
 
 #include <cstddef>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace weft {
@@ -36,6 +41,20 @@ struct Improve_result_3
 };
 
 namespace internal {
+
+template <class Mesh>
+struct Is_tetrahedral_mesh_3 : std::false_type
+{};
+template <class K>
+struct Is_tetrahedral_mesh_3<Tetrahedral_mesh_3<K>> : std::true_type
+{};
+
+/// What is returned after a complaint.
+struct No_result_3
+{
+  int mesh = 0;
+  Improve_report_3 report;
+};
 
 template <class K>
 std::size_t count_inverted(const Tetrahedral_mesh_3<K>& mesh)
@@ -108,17 +127,39 @@ Improve_result_3<K> improve_3(const Tetrahedral_mesh_3<K>& mesh, const Improve_o
 }
 
 /// Improves a mesh of a domain that is known better than by the mesh itself: its boundary slides on the surface of
-/// that. Sharp edges are those of the domain; `sharp_angle` and `tagged_features` don't matter. \param oracle a domain
-/// oracle, see Polyhedral_oracle_3.h. Patches, creases and corners of the result are its own. \throws Option_error as
-/// above, and if the boundary is to stay fixed; Domain_error as above.
+/// that. Sharp edges are those of the domain; `sharp_angle` and `tagged_features` don't matter.
+/// \param oracle a domain oracle, see doc/concepts/DomainOracle_3.h; asked during the call alone. Patches, creases and
+///   corners of the result are its own.
+/// \throws Option_error as above, and if the boundary is to stay fixed; Domain_error as above.
 template <class K, class Oracle>
 Improve_result_3<K> improve_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle, const Improve_options_3& options)
 {
-  if (options.boundary == Boundary_3::fixed) throw Option_error("a fixed boundary needs no domain");
-  return internal::improve_and_report(mesh, options, [&](Improve_report_3& report) {
-    return internal::improve_on_domain_3(mesh, oracle, options, report);
-  });
+  if constexpr (internal::Oracle_requirements_3<Oracle>::holds) {
+    if (options.boundary == Boundary_3::fixed) throw Option_error("a fixed boundary needs no domain");
+    return internal::improve_and_report(mesh, options, [&](Improve_report_3& report) {
+      return internal::improve_on_domain_3(mesh, oracle, options, report);
+    });
+  } else {
+    internal::Oracle_requirements_3<Oracle>::complain();
+    return {};
+  }
 }
+
+/// \cond
+// Overloads that only say what is wrong.
+template <class Mesh, std::enable_if_t<!internal::Is_tetrahedral_mesh_3<Mesh>::value, int> = 0>
+internal::No_result_3 improve_3(const Mesh&, const Improve_options_3& = Improve_options_3())
+{
+  static_assert(internal::never_v<Mesh>, "weft: improve_3() takes a weft::Tetrahedral_mesh_3<K>: from_c3t3(), "
+                                         "tetrahedral_mesh() or assemble_mesh_3() makes one");
+  return {};
+}
+template <class Mesh, class Oracle, std::enable_if_t<!internal::Is_tetrahedral_mesh_3<Mesh>::value, int> = 0>
+internal::No_result_3 improve_3(const Mesh& mesh, const Oracle&, const Improve_options_3& options)
+{
+  return improve_3(mesh, options);
+}
+/// \endcond
 
 } // namespace weft
 

@@ -4,17 +4,24 @@
 // triangles whose edges respect a sizing field, by interleaving refinement with relaxation (Tournois 2009, chapter 2,
 // Alg. 2). `relax_2()` moves the vertices of a mesh of any origin to better places and inserts none.
 //
-//   weft::Mesh_triangulation_2<> cdt;               // insert points and constraints, or weft::insert_pslg()
-//   const auto report = weft::make_mesh_2(cdt, weft::Uniform_sizing<>(0.1));
+//   const K::Point_2 a(0, 0), b(1, 0), c(0, 1);
+//   weft::Mesh_triangulation_2<K> cdt; // or weft::insert_pslg()
+//   cdt.insert_constraint(a, b);
+//   cdt.insert_constraint(b, c);
+//   cdt.insert_constraint(c, a);
+//   const auto report = weft::make_mesh_2(cdt, 0.1); // no edge longer than 0.1
 
 #ifndef WEFT_MAKE_MESH_2_H
 #define WEFT_MAKE_MESH_2_H
 
 #include <weft/options.h>
 #include <weft/planar/run/Planar_mesher_2.h>
+#include <weft/planar/run/require_planar_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/report.h>
 #include <weft/sizing/Uniform_sizing.h>
+
+#include <type_traits>
 
 namespace weft {
 
@@ -27,15 +34,23 @@ namespace weft {
 /// have running ids. On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
 ///
 /// Time is about linear in the number of vertices; the result depends on nothing but the arguments, not on threads.
-/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Triangulation_2.h.
-/// \param sizing callable, point -> largest edge length in the input's units.
+/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Mesh_triangulation_2.h. Neither
+///         `Triangulation_hierarchy_2` nor `Constrained_triangulation_plus_2`, whose layers the mesher doesn't keep.
+/// \param sizing callable, point -> largest edge length in the input's units; or a number, which holds everywhere.
 /// \throws Option_error for options out of range, and when the sizing field returns anything but positive numbers.
 /// \throws Domain_error when there is no domain.
 template <class Cdt, class Sizing>
 Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
 {
-  options.check();
-  return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
+  if constexpr (std::is_arithmetic_v<Sizing>) {
+    return make_mesh_2(cdt, Uniform_sizing<>(sizing), options);
+  } else if constexpr (internal::Planar_requirements_2<Cdt, Sizing>::holds) {
+    options.check();
+    return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
+  } else {
+    internal::Planar_requirements_2<Cdt, Sizing>::complain();
+    return {};
+  }
 }
 
 /// Relaxes an existing mesh: vertices without constraints move to better places, those on constraints stay, nothing is
@@ -45,8 +60,15 @@ Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& 
 template <class Cdt, class Sizing>
 Mesh_report_2 relax_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
 {
-  options.check();
-  return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
+  if constexpr (std::is_arithmetic_v<Sizing>) {
+    return relax_2(cdt, Uniform_sizing<>(sizing), options);
+  } else if constexpr (internal::Planar_requirements_2<Cdt, Sizing>::holds) {
+    options.check();
+    return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
+  } else {
+    internal::Planar_requirements_2<Cdt, Sizing>::complain();
+    return {};
+  }
 }
 
 } // namespace weft

@@ -4,11 +4,14 @@
 // inside a surface, and gives up creases found by angle that keep the criteria from holding. Scanned surfaces have
 // folds that look sharp, but that no mesh of the asked size and shape can follow.
 //
+//   #include <weft/IO/read_surface.h>
+//   #include <weft/IO/write_mesh_3.h>
+//
 //   const auto surface = weft::IO::read_surface<K>("armadillo.off");
 //   weft::Criteria_3<K> criteria;
 //   criteria.size = 5;
 //   const auto result = weft::mesh_surface_3(weft::piecewise_smooth_complex(surface), criteria);
-//   weft::IO::write_mesh_3("armadillo.vtu", weft::tetrahedral_mesh(result.mesh));
+//   weft::IO::write_mesh_3("armadillo.vtu", weft::tetrahedral_mesh(result.restricted));
 
 #ifndef WEFT_MESH_SURFACE_3_H
 #define WEFT_MESH_SURFACE_3_H
@@ -18,14 +21,18 @@
 #include <weft/report.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/domain/Polyhedral_oracle_3.h>
+#include <weft/spatial/restricted/extract_mesh_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
 #include <weft/spatial/run/give_up_creases_3.h>
+#include <weft/spatial/run/require_oracle_3.h>
 #include <weft/spatial/run/Spatial_mesher_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,12 +42,26 @@ namespace weft {
 template <class K>
 struct Mesh_surface_result_3
 {
-  std::shared_ptr<const Polyhedral_oracle_3<K>> domain; ///< what the mesh asks; its complex has the creases kept
-  Restricted_delaunay_3<Polyhedral_oracle_3<K>> mesh;
+  std::shared_ptr<const Polyhedral_oracle_3<K>> domain;     ///< what the mesh asks; its complex has the creases kept
+  Restricted_delaunay_3<Polyhedral_oracle_3<K>> restricted; ///< the mesh, as in Make_mesh_result_3
   Mesh_report_3 report;
 };
 
 namespace internal {
+
+template <class Surface>
+struct Is_complex_3 : std::false_type
+{};
+template <class K>
+struct Is_complex_3<Piecewise_smooth_complex_3<K>> : std::true_type
+{};
+
+template <class Surface, class Criteria>
+struct Takes_surface_3 : std::false_type
+{};
+template <class K>
+struct Takes_surface_3<Piecewise_smooth_complex_3<K>, Criteria_3<K>> : std::true_type
+{};
 
 /// One domain for a surface, and its mesher.
 template <class K>
@@ -141,6 +162,19 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
   if (is_hopeless) first->optimise();
   return result(*first, 0);
 }
+
+/// \cond
+// An overload that only says what is wrong.
+template <class Surface, class Criteria,
+          std::enable_if_t<!internal::Takes_surface_3<Surface, Criteria>::value, int> = 0>
+internal::No_mesh_3 mesh_surface_3(const Surface&, const Criteria&, const Mesh_options_3& = Mesh_options_3())
+{
+  constexpr bool is_complex = internal::Is_complex_3<Surface>::value;
+  static_assert(is_complex, "weft: mesh_surface_3() takes what piecewise_smooth_complex(surface) returns");
+  static_assert(!is_complex, "weft: the criteria aren't a weft::Criteria_3 with the surface's kernel");
+  return {};
+}
+/// \endcond
 
 } // namespace weft
 

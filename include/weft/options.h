@@ -16,8 +16,11 @@ namespace weft {
 /// Where the first vertices come from.
 enum class Seeding
 {
-  crystal, ///< a triangular lattice in the metric of the sizing field, grown through every room of the domain
-  none     ///< nothing: batch refinement alone, from the bare constraints (Tournois 2009, Alg. 2)
+  /// A triangular lattice in the metric of the sizing field, grown through every room of the domain.
+  crystal,
+  /// Nothing: refinement in batches and relaxation in turn, from the bare constraints, which is Alg. 2 of Tournois
+  /// 2009. What weft adds to that stays on (feedback, polishing, mended angles), but for the grading of `grade_input`.
+  none
 };
 
 /// Options of `make_mesh_2()` and `relax_2()`.
@@ -25,20 +28,32 @@ struct Mesh_options_2
 {
   Seeding seeding = Seeding::crystal;
 
-  double move_ratio = 0.03;       ///< relaxation ends when no vertex moves farther, in parts of its cell's size
-  double final_move_ratio = 0.01; ///< the same for the last relaxation
-  int quadrature = 10;            ///< quadrature triangles a Voronoi cell while refining; ignored by uniform sizing
-  int final_quadrature = 100;     ///< the same for the last relaxation
-  double size_feedback = 3;       ///< exponent with which long edges draw vertices near; 0 is Lloyd's iteration proper
-  int max_sweeps = 12;            ///< most sweeps a relaxation
-  int max_batches = 400;          ///< most batches of refinement
+  /// Relaxation ends when no vertex moves farther, in parts of its Voronoi cell's size. That is twice the distance from
+  /// the vertex to the farthest corner of the cell.
+  double move_ratio = 0.03;
+  /// The same for the last relaxation: that of `relax_2()`, and in `make_mesh_2()` the one that takes the place of
+  /// polishing where `polish` is off.
+  double final_move_ratio = 0.01;
+  /// About how many quadrature triangles a Voronoi cell has while refining. Each of the about twelve parts into which
+  /// the triangles of the mesh cut a cell is cut into quadrature / 12 ones, rounded up: from 1 to 12 the density is
+  /// constant on each part. Ignored by uniform sizing.
+  int quadrature = 10;
+  int final_quadrature = 100; ///< the same for the last relaxation, as above
+  /// Exponent with which long edges draw vertices near: the density of Lloyd's iteration is that of the sizing field
+  /// times (longest edge of the triangle / its size) to that power. The density of the field is size^-3 then; with 0,
+  /// Lloyd's iteration proper, it is size^-4.
+  double size_feedback = 3;
+  int max_sweeps = 12;   ///< most sweeps a relaxation; 0: no relaxation at all
+  int max_batches = 400; ///< most batches of refinement
 
   /// Smallest angle in degrees to refine for, where the input allows it; 0: only sizes count. With `grade_input` and
   /// `polish` on, angles below 25 degrees are mended in any case, as far as a quarter more vertices suffices; what is
   /// left of them then is not a criterion that failed.
   double min_angle = 0;
-  bool grade_input = true; ///< let elements shrink towards input details finer than the sizing field
-  bool polish = true;      ///< improve the worst triangles at the end
+  /// Let elements shrink towards input details finer than the sizing field. With `Seeding::none` that isn't done; then
+  /// it only decides whether angles are mended, as said above.
+  bool grade_input = true;
+  bool polish = true; ///< improve the worst triangles at the end
 
   /// Vertex budget. With crystals, a run whose constraints need more, or whose domain does at a uniform size, ends
   /// before it inserts anything.

@@ -6,6 +6,7 @@
 #define WEFT_REPORT_H
 
 #include <weft/internal/counted.h>
+#include <weft/visitor.h>
 
 #include <cstddef>
 #include <ostream>
@@ -14,39 +15,6 @@
 #include <vector>
 
 namespace weft {
-
-/// Why a run ended.
-enum class Stop_reason
-{
-  criteria_met,
-  iteration_limit,
-  vertex_budget,
-  time_limit,
-  cancelled,
-  exhausted, ///< nothing more can be done about the elements that are still bad
-  resolution ///< elements would be smaller than coordinates can tell apart
-};
-
-/// Name of a stop reason for people.
-inline const char* name(Stop_reason reason)
-{
-  switch (reason) {
-  case Stop_reason::criteria_met:
-    return "all criteria met";
-  case Stop_reason::iteration_limit:
-    return "iteration limit reached";
-  case Stop_reason::vertex_budget:
-    return "vertex budget reached";
-  case Stop_reason::time_limit:
-    return "time limit reached";
-  case Stop_reason::cancelled:
-    return "cancelled";
-  case Stop_reason::exhausted:
-    return "nothing more can be done about what is still bad";
-  default:
-    return "resolution of coordinates reached";
-  }
-}
 
 /// Result of `make_mesh_2()` and `relax_2()`.
 struct Mesh_report_2

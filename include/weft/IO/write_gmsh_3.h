@@ -73,13 +73,13 @@ void bound_gmsh_entities(Gmsh_entities_3& entities, const Tetrahedral_mesh_3<K>&
   std::map<std::array<std::size_t, 3>, int> patch_of;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     patch_of[sorted(mesh.facets[f])] = mesh.patches[f] + 1;
-    for (int i = 0; i < 3 && !crease_of.empty(); ++i) {
+    for (std::size_t i = 0; i < 3 && !crease_of.empty(); ++i) {
       const auto crease = crease_of.find(sorted<2>({mesh.facets[f][i], mesh.facets[f][(i + 1) % 3]}));
       if (crease != crease_of.end()) entities[2][mesh.patches[f] + 1].boundary.insert(crease->second);
     }
   }
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4; ++i) {
       const auto& cell = mesh.cells[c];
       const auto patch = patch_of.find(sorted<3>({cell[(i + 1) % 4], cell[(i + 2) % 4], cell[(i + 3) % 4]}));
       if (patch != patch_of.end()) entities[3][mesh.subdomains[c]].boundary.insert(patch->second);
@@ -97,7 +97,7 @@ Gmsh_entities_3 gmsh_entities(const Tetrahedral_mesh_3<K>& mesh)
   for (const std::size_t v : mesh.corners) entities[0][mesh.locations[v].index + 1].elements.push_back(v);
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const auto& location = mesh.locations[v];
-    Gmsh_entity_3& entity = entities[location.dimension][location.index + (location.dimension < 3 ? 1 : 0)];
+    Gmsh_entity_3& entity = entities[as_index(location.dimension)][location.index + (location.dimension < 3 ? 1 : 0)];
     entity.nodes.push_back(v);
     entity.include(xyz(mesh.points[v]));
   }

@@ -70,7 +70,7 @@ inline void append_json(Json_text& json, const Quality_3& q, std::string_view na
   append_json(json, "largest_dihedral", q.largest_dihedral, "cell");
   json.member("mean_smallest_dihedral", q.mean_smallest_dihedral);
   json.begin_object("cells_below");
-  for (const std::size_t degrees : {5, 10, 15, 20}) json.member(std::to_string(degrees), q.cells_below(degrees));
+  for (const std::size_t degrees : {5u, 10u, 15u, 20u}) json.member(std::to_string(degrees), q.cells_below(degrees));
   json.end();
   json.member("largest_radius_edge_ratio", q.largest_radius_edge_ratio);
   json.member("mean_radius_edge_ratio", q.mean_radius_edge_ratio);

@@ -11,6 +11,7 @@
 #define WEFT_SIZING_CACHED_SIZING_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/as_index.h>
 
 #include <CGAL/Bbox_2.h>
 #include <CGAL/number_utils.h>
@@ -81,7 +82,7 @@ public:
       u *= 2, v *= 2;
       const int right = u >= 1, upper = v >= 1;
       u -= right, v -= upper;
-      node = nodes_[static_cast<std::size_t>(node) + right + 2 * upper];
+      node = nodes_[static_cast<std::size_t>(node) + internal::as_index(right + 2 * upper)];
     }
     const Leaf& leaf = leaves_[static_cast<std::size_t>(~node)];
     return FT(leaf.at(u, v));
@@ -185,7 +186,7 @@ private:
     const double h00 = value(s.x, s.y), h10 = value(s.x + s.side, s.y), h01 = value(s.x, s.y + s.side),
                  h11 = value(s.x + s.side, s.y + s.side);
     Leaf leaf{h00, h10 - h00, h01 - h00, h11 - h10 - h01 + h00};
-    static constexpr std::array<std::array<int, 2>, 13> tests{
+    static constexpr std::array<std::array<unsigned, 2>, 13> tests{
         {{0, 0}, {4, 0}, {0, 4}, {4, 4}, {2, 2}, {2, 0}, {0, 2}, {4, 2}, {2, 4}, {1, 1}, {3, 1}, {1, 3}, {3, 3}}};
     double lowest = std::numeric_limits<double>::infinity(), highest = 0; // field / interpolation
     for (const auto& t : tests) {

@@ -34,7 +34,7 @@ Validity_2 compare_flags(const Cdt& cdt, const Face_components<Cdt>& components,
 {
   Validity_2 validity;
   for (const auto face : cdt.all_face_handles()) {
-    const bool wanted = in_domain[components.number[face]];
+    const bool wanted = in_domain[as_index(components.number[face])];
     if (face->is_in_domain() != wanted)
       validity.add(Fault_kind::domain, wanted ? "a face isn't in the domain" : "a face is wrongly in the domain",
                    corners(cdt, face));

@@ -40,7 +40,7 @@ public:
   struct Target
   {
     Point point;
-    double move_ratio; ///< length of the move over the diameter of the cell
+    double move_ratio; ///< length of the move over twice the distance to the farthest corner of the cell
   };
 
   /// \param feedback exponent of the sizing ratio in the density.

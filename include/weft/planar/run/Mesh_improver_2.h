@@ -8,6 +8,7 @@
 #ifndef WEFT_PLANAR_RUN_MESH_IMPROVER_2_H
 #define WEFT_PLANAR_RUN_MESH_IMPROVER_2_H
 
+#include <weft/internal/Run.h>
 #include <weft/options.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
@@ -15,7 +16,6 @@
 #include <weft/planar/refine/sample_constraints_2.h>
 #include <weft/planar/run/Improve_options_2.h>
 #include <weft/planar/run/Mesh_optimiser_2.h>
-#include <weft/planar/run/Mesh_run_2.h>
 #include <weft/planar/run/outline_2.h>
 #include <weft/planar/run/outline_graph_2.h>
 #include <weft/planar/run/vertex_density_2.h>
@@ -73,7 +73,7 @@ public:
   /// \param inside the vertices that are free to move anywhere.
   /// \param report gets the counts; its time limit and visitor see one run after the other.
   Mesh_improver_2(Triangulated_outline_2<K>& outline, std::vector<Point> inside, const Sizing& sizing,
-                  const Improve_options_2& options, Mesh_run_2& run, Mesh_report_2& report)
+                  const Improve_options_2& options, Run& run, Mesh_report_2& report)
       : outline_(outline),
         sizing_(sizing),
         inside_(inside.size()),
@@ -126,10 +126,10 @@ private:
   template <class Function>
   void timed(Stage stage, const Function& function)
   {
-    run_.timed(stage, report_, function);
+    run_.timed(stage, function);
   }
 
-  bool go_on() { return run_.go_on(mesh_.vertices().size(), sharp_, report_); }
+  bool go_on() { return run_.go_on(mesh_.vertices().size(), sharp_); }
 
   std::size_t count_sharp() const { return refiner_.count_sharp().mendable; }
 
@@ -229,7 +229,7 @@ private:
   std::size_t inside_; ///< vertices that aren't on the outline
   Mesh mesh_;
   const Improve_options_2& options_;
-  Mesh_run_2& run_;
+  Run& run_;
   Mesh_report_2& report_;
   Batch_refiner_2<Mesh> refiner_;
   Mesh_optimiser_2<Mesh> optimiser_;

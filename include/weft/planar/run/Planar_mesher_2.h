@@ -7,6 +7,7 @@
 #ifndef WEFT_PLANAR_RUN_PLANAR_MESHER_2_H
 #define WEFT_PLANAR_RUN_PLANAR_MESHER_2_H
 
+#include <weft/internal/Run.h>
 #include <weft/options.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/refine/Batch_refiner_2.h>
@@ -17,7 +18,6 @@
 #include <weft/planar/relax/Relaxation_guard_2.h>
 #include <weft/planar/run/Angle_goal_2.h>
 #include <weft/planar/run/Mesh_optimiser_2.h>
-#include <weft/planar/run/Mesh_run_2.h>
 #include <weft/planar/working/Working_mesh_2.h>
 #include <weft/report.h>
 
@@ -46,7 +46,7 @@ public:
       : mesh_(cdt, sizing, keep_vertices ? Mesh::Given::relaxable : Mesh::Given::input),
         sizing_(sizing),
         options_(options),
-        run_(options),
+        run_(options.visitor, options.time_limit),
         goal_(options),
         refiner_(mesh_, options.min_angle),
         optimiser_(mesh_, options.size_feedback, options.threads, options.seed, report_)
@@ -93,12 +93,12 @@ private:
   template <class Function>
   void timed(Stage stage, const Function& function)
   {
-    run_.timed(stage, report_, function);
+    run_.timed(stage, function);
   }
 
-  bool go_on(std::size_t vertices) { return run_.go_on(vertices, bad_, report_); }
+  bool go_on(std::size_t vertices) { return run_.go_on(vertices, bad_); }
   bool go_on() { return go_on(mesh_.vertices().size()); }
-  void stop(Stop_reason reason) { run_.stop(reason, report_); }
+  void stop(Stop_reason reason) { run_.stop(reason); }
   bool is_stopped() const { return run_.is_stopped(); }
 
   /// Stops a run that can't end within its budget.
@@ -258,7 +258,8 @@ private:
     if (sizes_hold()) return;
     if (!near) return relax_all(options_.move_ratio, options_.quadrature);
     // Where many edges are just short enough, relaxing far around undoes what polishing achieved.
-    relax(optimiser_.with_neighbors(fresh), {options_.move_ratio, options_.quadrature, most_local_sweeps});
+    relax(optimiser_.with_neighbors(fresh),
+          {options_.move_ratio, options_.quadrature, (std::min)(most_local_sweeps, options_.max_sweeps)});
   }
 
   // What the optimiser does, as long as the run may go on.
@@ -284,6 +285,7 @@ private:
   {
     for (const Vertex_handle v : mesh_.vertices())
       if (v->constraint() >= 0) ++report_.constraint_steiner;
+    run_.report(report_);
     report_.vertices = mesh_.vertices().size();
     report_.interior_steiner = report_.vertices - report_.input_vertices - report_.constraint_steiner;
     report_.triangles = mesh_.faces().size();
@@ -302,7 +304,7 @@ private:
   Mesh mesh_;
   const Sizing& sizing_;
   const Mesh_options_2& options_;
-  Mesh_run_2 run_;
+  Run run_;
   Angle_goal_2 goal_;
   Mesh_report_2 report_;
   Batch_refiner_2<Mesh> refiner_;

@@ -5,7 +5,7 @@
 // target sizes at vertices, and a frame of four far vertices, so that no vertex that moves lies on the convex hull
 // and no rounded Steiner point can dent it. The frame is taken away again by `finish()` or the destructor.
 //
-// The triangulation needs the bases of Triangulation_2.h. All its vertices at construction are input vertices.
+// The triangulation needs the bases of Mesh_triangulation_2.h. All its vertices at construction are input vertices.
 
 #ifndef WEFT_PLANAR_WORKING_WORKING_MESH_2_H
 #define WEFT_PLANAR_WORKING_WORKING_MESH_2_H

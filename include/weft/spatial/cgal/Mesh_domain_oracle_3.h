@@ -116,6 +116,8 @@ public:
       throw Domain_error("no point of the boundary was found: the domain is empty or too small", {}, {});
   }
 
+  explicit Mesh_domain_oracle_3(const Domain&& temporary, int seed_grid = 30) = delete;
+
   int label(const Point& p) const { return has_triangles_ ? surface_.subdomain(p) : label_by_domain(p); }
 
   /// Where the domain says, if that is where labels change; else by bisection.

@@ -7,6 +7,7 @@
 #define WEFT_SPATIAL_CRITERIA_CRITERIA_3_H
 
 #include <weft/errors.h>
+#include <weft/internal/answers.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <array>
@@ -31,6 +32,18 @@ public:
   template <class Field, class = std::enable_if_t<std::is_invocable_r_v<double, const Field&, const Point&>>>
   Length_field_3(Field field) : constant_(-1), field_(std::move(field)) // NOLINT: so is a callable
   {}
+  /// \cond
+  // Only says what is wrong with any other object.
+  template <class Field, std::enable_if_t<std::is_class_v<Field> && !std::is_base_of_v<Length_field_3, Field> &&
+                                              !std::is_convertible_v<const Field&, double> &&
+                                              !std::is_invocable_r_v<double, const Field&, const Point&>,
+                                          int> = 0>
+  Length_field_3(const Field&) : constant_(0) // NOLINT: as above
+  {
+    static_assert(internal::never_v<Field>, "weft: a length is a number, or is called as const with a point of the "
+                                            "kernel, `K::Point_3`, and returns a number");
+  }
+  /// \endcond
 
   bool is_constant() const { return !field_; }
   /// Whether there is a bound at all.
@@ -97,7 +110,6 @@ struct Criteria_3
   double facet_shape = 2;          ///< largest circumradius / shortest edge of a boundary facet; 0: no bound
   double cell_shape = 2;           ///< largest circumradius / shortest edge of a cell; 0: no bound
   bool topology = false; ///< the vertices of a boundary facet lie on one patch, those of a crease edge on one crease
-  bool manifold = false; ///< the boundary of the mesh is a 2-manifold
   /// As far as this from the surface optimisation may bring facets and crease edges, in the input's units, though the
   /// approximation doesn't ask for more. 0: not beyond the farthest of them before it began.
   Length_field_3<K> deviation;

@@ -42,7 +42,7 @@ public:
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> triangle_of_side;
     std::vector<Box_3> boxes;
     for (std::size_t t = 0; t < complex.triangles.size(); ++t)
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t a = complex.triangles[t][i], b = complex.triangles[t][(i + 1) % 3];
         const auto other = triangle_of_side.find({b, a});
         if (other == triangle_of_side.end()) {

@@ -4,6 +4,8 @@
 // Between voxel centers, the material with the largest trilinear weight wins, which makes boundaries that are smooth
 // within a voxel.
 //
+//   #include <weft/IO/read_label_image.h>
+//
 //   const weft::Label_image_3 image = weft::IO::read_label_image("liver.inr.gz");
 //   const auto domain = weft::image_oracle_3<K>(image);
 

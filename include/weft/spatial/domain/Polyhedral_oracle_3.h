@@ -21,6 +21,7 @@
 #include <weft/spatial/domain/Patched_surface_3.h>
 #include <weft/spatial/domain/Salient_features_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -41,7 +42,9 @@ namespace weft {
 template <class K>
 class Polyhedral_oracle_3
 {
-  static_assert(std::is_same<typename K::FT, double>::value, "the oracle's error bounds are those of doubles");
+  static_assert(std::is_same<typename K::FT, double>::value,
+                "weft: spatial meshes need a kernel with exact predicates and coordinates of type double, such as "
+                "CGAL::Exact_predicates_inexact_constructions_kernel");
 
 public:
   using Kernel = K;
@@ -66,7 +69,7 @@ public:
     salient_ = internal::Salient_features_3<K>(complex_, {fold_angle, ridge_angle, sharp_angle, 180 - acute_angle});
   }
 
-  /// From a surface, by `piecewise_smooth_complex(surface, options)`; include piecewise_smooth_complex.h for it.
+  /// From a surface, by `piecewise_smooth_complex(surface, options)`.
   /// \throws what that function throws.
   template <class Surface, class Options>
   Polyhedral_oracle_3(const Surface& surface, const Options& options)
@@ -205,7 +208,7 @@ private:
     std::vector<Triangle> all;
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
       Triangle triangle;
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         triangle.vertices[i] = static_cast<std::uint32_t>(complex_.triangles[t][i]);
         triangle.points[i] = complex_.points[triangle.vertices[i]];
       }

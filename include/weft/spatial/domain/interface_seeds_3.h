@@ -6,6 +6,7 @@
 #ifndef WEFT_SPATIAL_DOMAIN_INTERFACE_SEEDS_3_H
 #define WEFT_SPATIAL_DOMAIN_INTERFACE_SEEDS_3_H
 
+#include <weft/internal/as_index.h>
 #include <weft/internal/boxes/farthest_points_3.h>
 #include <weft/internal/Disjoint_parts.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
@@ -37,11 +38,11 @@ public:
     }
   }
 
-  std::size_t size() const { return static_cast<std::size_t>(n_[0]) * n_[1] * n_[2]; }
+  std::size_t size() const { return as_index(n_[0]) * as_index(n_[1]) * as_index(n_[2]); }
   int count(std::size_t axis) const { return n_[axis]; }
   std::size_t index(const std::array<int, 3>& at) const
   {
-    return (static_cast<std::size_t>(at[2]) * n_[1] + at[1]) * n_[0] + at[0];
+    return (as_index(at[2]) * as_index(n_[1]) + as_index(at[1])) * as_index(n_[0]) + as_index(at[0]);
   }
   template <class Point>
   Point point(const std::array<int, 3>& at) const

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace weft::internal {
 
@@ -34,10 +35,10 @@ Dihedral_cosines_3 cosines_of_extreme_dihedrals(const Point& a, const Point& b, 
       {cross_product(bc, bd), cross_product(ad, ac), cross_product(ab, ad), cross_product(ac, ab)}};
   if (!(dot_product(n[3], ad) < 0)) return {1, -1};
   std::array<double, 4> length;
-  for (int i = 0; i < 4; ++i) length[i] = norm(n[i]);
+  for (std::size_t i = 0; i < 4; ++i) length[i] = norm(n[i]);
   Dihedral_cosines_3 extreme;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i + 1; j < 4; ++j) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) {
       const double product = length[i] * length[j];
       if (!(product > 0)) return {1, -1};
       const double cosine = -dot_product(n[i], n[j]) / product;

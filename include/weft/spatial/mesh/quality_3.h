@@ -120,7 +120,7 @@ struct Scaled_simplex_3
 struct Cell_measures_3
 {
   /// Edge k joins the first two corners of `edges[k]`; the other two are opposite to the facets beside it.
-  static constexpr std::array<std::array<int, 4>, 6> edges = {
+  static constexpr std::array<std::array<std::size_t, 4>, 6> edges = {
       {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}}};
 
   std::array<double, 6> dihedral; ///< degrees
@@ -155,7 +155,7 @@ private:
     if (six_volumes == 0) return;
     const double a = dot_product(p[1], p[1]), b = dot_product(p[2], p[2]), c = dot_product(p[3], p[3]);
     Xyz_3 sum;
-    for (int i = 0; i < 3; ++i) sum[i] = a * normal[1][i] + b * normal[2][i] + c * normal[3][i];
+    for (std::size_t i = 0; i < 3; ++i) sum[i] = a * normal[1][i] + b * normal[2][i] + c * normal[3][i];
     circumradius = norm(sum) / (2 * std::abs(six_volumes));
     double twice_area = 0;
     for (const Xyz_3& n : normal) twice_area += norm(n);

@@ -133,7 +133,7 @@ inline void check_manifold_edges(const std::vector<Boundary_facet_3>& boundary, 
 {
   std::vector<std::pair<int, std::array<std::size_t, 2>>> edges; // one entry for each facet beside the edge
   for (const auto& [subdomain, f] : boundary)
-    for (int i = 0; i < 3; ++i) edges.push_back({subdomain, sorted<2>({f[i], f[(i + 1) % 3]})});
+    for (std::size_t i = 0; i < 3; ++i) edges.push_back({subdomain, sorted<2>({f[i], f[(i + 1) % 3]})});
   std::sort(edges.begin(), edges.end());
   for (auto first = edges.begin(); first != edges.end();) {
     const auto last = std::upper_bound(first, edges.end(), *first);
@@ -176,7 +176,7 @@ inline void check_manifold_vertices(const std::vector<Boundary_facet_3>& boundar
   };
   std::vector<Link_edge> links;
   for (const auto& [subdomain, f] : boundary)
-    for (int i = 0; i < 3; ++i) links.push_back({subdomain, f[i], {f[(i + 1) % 3], f[(i + 2) % 3]}});
+    for (std::size_t i = 0; i < 3; ++i) links.push_back({subdomain, f[i], {f[(i + 1) % 3], f[(i + 2) % 3]}});
   const auto key = [](const Link_edge& l) { return std::pair(l.subdomain, l.vertex); };
   std::sort(links.begin(), links.end(), [&](const Link_edge& a, const Link_edge& b) {
     return key(a) != key(b) ? key(a) < key(b) : a.edge < b.edge;

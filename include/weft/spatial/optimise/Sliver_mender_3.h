@@ -200,7 +200,7 @@ private:
     const std::vector<int> around = vertices_around(c);
     if (around.empty()) return false;
     const int id = around[random_() % around.size()];
-    const double depth = deepest_kick + (1 - deepest_kick) * random_() / 4294967295.0;
+    const double depth = deepest_kick + (1 - deepest_kick) * static_cast<double>(random_()) / 4294967295.0;
     const double bound = cosine_of_degrees(depth * degrees_of_cosine(bound_));
     bool changed = false;
     switch (random_() % 4) {

@@ -365,7 +365,7 @@ private:
   }
 
   /// In [-1, 1].
-  double random() { return 2 * (random_() / 4294967295.0) - 1; }
+  double random() { return 2 * (static_cast<double>(random_()) / 4294967295.0) - 1; }
 
   /// Judges a place, projected to where the vertex may lie; remembers it if it is good enough.
   double try_at(Point p, std::size_t kind)

@@ -120,7 +120,7 @@ private:
   Point shaken(const Point& p, double radius, int patch)
   {
     const double step = 0.4 * radius;
-    const auto random = [&] { return step * (2 * (random_() / 4294967295.0) - 1); };
+    const auto random = [&] { return step * (2 * (static_cast<double>(random_()) / 4294967295.0) - 1); };
     const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
     const Surface_hit hit = mesh_.oracle().project_on_patch(p + typename Kernel::Vector_3(x, y, z), patch);
     return hit.patch == patch ? hit.point : p;

@@ -15,6 +15,7 @@
 #define WEFT_SPATIAL_RESTRICTED_CELL_CLASSIFIER_3_H
 
 #include <weft/internal/parallel_for.h>
+#include <weft/spatial/domain/oracle_hits_3.h>
 #include <weft/spatial/mesh/circumcenter_3.h>
 
 #include <CGAL/number_utils.h>
@@ -56,7 +57,7 @@ class Cell_classifier_3
 public:
   using Kernel = typename Oracle::Kernel;
   using Point = typename Kernel::Point_3;
-  using Surface_hit = decltype(std::declval<const Oracle&>().closest(std::declval<const Point&>()));
+  using Surface_hit = Surface_hit_3<Kernel>;
   using Cell_handle = typename Triangulation::Cell_handle;
   using Restricted_facet = Restricted_facet_3<Triangulation>;
 

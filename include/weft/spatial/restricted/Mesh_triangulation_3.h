@@ -11,6 +11,7 @@
 #ifndef WEFT_SPATIAL_RESTRICTED_MESH_TRIANGULATION_3_H
 #define WEFT_SPATIAL_RESTRICTED_MESH_TRIANGULATION_3_H
 
+#include <weft/internal/as_index.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -87,8 +88,8 @@ public:
   void set_circumcenter(const Point_3& c) { circumcenter_ = c; }
 
   /// Number of the restricted facet opposite to vertex i; -1 if that facet isn't restricted.
-  int facet_record(int i) const { return facet_records_[i]; }
-  void set_facet_record(int i, int record) { facet_records_[i] = record; }
+  int facet_record(int i) const { return facet_records_[internal::as_index(i)]; }
+  void set_facet_record(int i, int record) { facet_records_[internal::as_index(i)] = record; }
 
   /// Running number; valid only while the component that set it runs.
   int id() const { return id_; }

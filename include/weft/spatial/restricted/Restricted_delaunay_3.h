@@ -9,6 +9,7 @@
 #ifndef WEFT_SPATIAL_RESTRICTED_RESTRICTED_DELAUNAY_3_H
 #define WEFT_SPATIAL_RESTRICTED_RESTRICTED_DELAUNAY_3_H
 
+#include <weft/spatial/domain/oracle_hits_3.h>
 #include <weft/spatial/restricted/Cell_classifier_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/Crease_tracer_3.h>
@@ -51,7 +52,7 @@ public:
   using Oracle = Oracle_;
   using Kernel = typename Oracle::Kernel;
   using Point = typename Kernel::Point_3;
-  using Surface_hit = decltype(std::declval<const Oracle&>().closest(std::declval<const Point&>()));
+  using Surface_hit = Surface_hit_3<Kernel>;
   using Triangulation = Mesh_triangulation_3<Kernel>;
   using Vertex_handle = typename Triangulation::Vertex_handle;
   using Cell_handle = typename Triangulation::Cell_handle;
@@ -76,6 +77,8 @@ public:
       tracer_.add_crease(std::move(points));
     }
   }
+
+  explicit Restricted_delaunay_3(const Oracle&& temporary, int threads = 1) = delete;
 
   const Oracle& oracle() const { return *oracle_; }
   const Feature_incidence_3& incidence() const { return incidence_; }

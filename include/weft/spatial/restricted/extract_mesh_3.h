@@ -5,6 +5,7 @@
 #ifndef WEFT_SPATIAL_RESTRICTED_EXTRACT_MESH_3_H
 #define WEFT_SPATIAL_RESTRICTED_EXTRACT_MESH_3_H
 
+#include <weft/internal/as_index.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
 
@@ -57,7 +58,7 @@ Tetrahedral_mesh_3<typename Oracle::Kernel> tetrahedral_mesh(const Restricted_de
       if (beyond == c->subdomain() || (beyond != 0 && beyond < c->subdomain())) continue;
       std::array<std::size_t, 3> facet;
       // The triple is counterclockwise seen from inside the cell.
-      for (int k = 0; k < 3; ++k) facet[2 - k] = number_of(c->vertex(tr.vertex_triple_index(i, k)));
+      for (int k = 0; k < 3; ++k) facet[internal::as_index(2 - k)] = number_of(c->vertex(tr.vertex_triple_index(i, k)));
       mesh.facets.push_back(facet);
       const auto* f = restricted.facet(c, i);
       mesh.patches.push_back(f ? f->patch : 0);

@@ -57,7 +57,7 @@ Criteria_3<K> criteria_of_mesh(const Tetrahedral_mesh_3<K>& mesh, const Boundary
   criteria.deviation = deviation;
   criteria.facet_shape = 4;
   criteria.cell_shape = 6;
-  criteria.topology = criteria.manifold = true;
+  criteria.topology = true;
   return criteria;
 }
 

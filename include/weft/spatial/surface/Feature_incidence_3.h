@@ -6,6 +6,7 @@
 #ifndef WEFT_SPATIAL_SURFACE_FEATURE_INCIDENCE_3_H
 #define WEFT_SPATIAL_SURFACE_FEATURE_INCIDENCE_3_H
 
+#include <weft/internal/as_index.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 
@@ -21,6 +22,9 @@ namespace weft {
 class Feature_incidence_3
 {
 public:
+  /// For domains without feature vertices and creases.
+  Feature_incidence_3() = default;
+
   /// Linear in the size of the complex, but for a factor log(number of sharp edges).
   template <class K>
   explicit Feature_incidence_3(const Piecewise_smooth_complex_3<K>& complex)
@@ -42,18 +46,20 @@ public:
       add_crease_at(corner_of_point[crease.vertices.back()], static_cast<int>(c));
     }
     for (std::size_t t = 0; t < complex.triangles.size(); ++t)
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t a = complex.triangles[t][i], b = complex.triangles[t][(i + 1) % 3];
-        if (corner_of_point[a] >= 0) patches_of_corner_[corner_of_point[a]].push_back(complex.patches[t]);
+        if (corner_of_point[a] >= 0)
+          patches_of_corner_[internal::as_index(corner_of_point[a])].push_back(complex.patches[t]);
         const auto found = crease_of_edge.find(std::minmax(a, b));
-        if (found != crease_of_edge.end()) patches_of_crease_[found->second].push_back(complex.patches[t]);
+        if (found != crease_of_edge.end())
+          patches_of_crease_[internal::as_index(found->second)].push_back(complex.patches[t]);
       }
     for (auto* lists : {&creases_of_corner_, &patches_of_corner_, &patches_of_crease_})
       for (auto& list : *lists) sort_and_thin(list);
   }
 
   /// For domains that don't tell which patches meet at a crease: any may.
-  /// \param ends of each crease, the feature vertices there; -1 for a closed one.
+  /// \param ends of each crease, the numbers of the feature vertices there; -1 and -1 for a closed one.
   Feature_incidence_3(std::size_t number_of_corners, const std::vector<std::pair<int, int>>& ends)
       : knows_patches_(false), creases_of_corner_(number_of_corners)
   {
@@ -64,10 +70,13 @@ public:
     for (auto& list : creases_of_corner_) sort_and_thin(list);
   }
 
-  bool corner_is_on_crease(int corner, int crease) const { return contains(creases_of_corner_[corner], crease); }
+  bool corner_is_on_crease(int corner, int crease) const
+  {
+    return contains(creases_of_corner_[internal::as_index(corner)], crease);
+  }
 
   /// Creases that end in a feature vertex, in order; one that starts and ends there counts once.
-  const std::vector<int>& creases_of_corner(int corner) const { return creases_of_corner_[corner]; }
+  const std::vector<int>& creases_of_corner(int corner) const { return creases_of_corner_[internal::as_index(corner)]; }
 
   /// Whether a location lies on the closure of a patch, as far as that is known.
   bool is_on_patch(const Vertex_location_3& at, int patch) const
@@ -75,9 +84,9 @@ public:
     if (at.dimension < 2 && !knows_patches_) return true;
     switch (at.dimension) {
     case 0:
-      return contains(patches_of_corner_[at.index], patch);
+      return contains(patches_of_corner_[internal::as_index(at.index)], patch);
     case 1:
-      return contains(patches_of_crease_[at.index], patch);
+      return contains(patches_of_crease_[internal::as_index(at.index)], patch);
     default:
       return at.dimension == 2 && at.index == patch;
     }
@@ -86,7 +95,7 @@ public:
 private:
   void add_crease_at(int corner, int crease)
   {
-    if (corner >= 0) creases_of_corner_[corner].push_back(crease);
+    if (corner >= 0) creases_of_corner_[internal::as_index(corner)].push_back(crease);
   }
   static void sort_and_thin(std::vector<int>& list)
   {

@@ -223,7 +223,7 @@ Surface_topology_3 check_surface_topology(const Triangle_surface_3<K>& surface)
   check_orientation(surface, topology);
   check_vertices(surface, topology.neighbours);
   std::tie(topology.shells, topology.number_of_shells) =
-      surface_components(topology.neighbours, [](std::size_t, int) { return true; });
+      surface_components(topology.neighbours, [](std::size_t, std::size_t) { return true; });
   return topology;
 }
 

@@ -32,7 +32,7 @@ struct Surface_side_3
 {
   std::size_t low, high; ///< its two vertices, the smaller index first
   std::size_t triangle;
-  int side;
+  std::size_t side;
   bool forward; ///< runs from low to high
 };
 
@@ -42,7 +42,7 @@ inline std::vector<Surface_side_3> sorted_sides(const std::vector<std::array<std
   std::vector<Surface_side_3> sides;
   sides.reserve(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
       sides.push_back({std::min(from, to), std::max(from, to), t, i, from < to});
     }
@@ -100,7 +100,7 @@ std::pair<std::vector<int>, int> surface_components(const Surface_neighbours_3& 
     while (!pending.empty()) {
       const std::size_t t = pending.back();
       pending.pop_back();
-      for (int i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t next = neighbours[t][i].triangle;
         if (component[next] >= 0 || !connects(t, i)) continue;
         component[next] = count;

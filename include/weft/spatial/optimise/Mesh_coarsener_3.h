@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The coarsener behind coarsen_3.h.
+
+#ifndef WEFT_SPATIAL_OPTIMISE_MESH_COARSENER_3_H
+#define WEFT_SPATIAL_OPTIMISE_MESH_COARSENER_3_H
+
+#include <weft/internal/boxes/nearest_point_3.h>
+#include <weft/internal/timer.h>
+#include <weft/spatial/criteria/Criteria_guard_3.h>
+#include <weft/spatial/mesh/dihedral_angles_3.h>
+#include <weft/spatial/optimise/Coarsen_options_3.h>
+#include <weft/spatial/restricted/Restricted_delaunay_3.h>
+#include <weft/spatial/restricted/Vertex_transaction_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace weft::internal {
+
+/// The coarsener; `coarsen_3()` runs it.
+template <class Restricted>
+class Mesh_coarsener_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Cell_handle = typename Restricted::Cell_handle;
+  using Vertex_handle = typename Restricted::Vertex_handle;
+
+  Mesh_coarsener_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Coarsen_options_3& options)
+      : mesh_(mesh), guard_(guard), options_(options), is_promising_(mesh.vertices().size(), true), vacant_(mesh)
+  {}
+
+  Coarsen_report_3 run()
+  {
+    bound_ = cosine_of_degrees(options_.min_dihedral_angle);
+    while (static_cast<int>(report_.passes) < options_.most_passes && goes_on_) {
+      const std::size_t before = report_.removed;
+      run_pass();
+      const auto gain = static_cast<double>(report_.removed - before);
+      if (gain < options_.least_gain * static_cast<double>(mesh_.vertices().size())) break;
+    }
+    if (report_.removed > 0) guard_.renumber(vacant_.close());
+    report_.seconds = timer_.seconds();
+    return report_;
+  }
+
+private:
+  void run_pass()
+  {
+    ++report_.passes;
+    if (report_.passes == 1) leave_excellent();
+    std::vector<std::pair<double, int>> order;
+    for (const Vertex_handle v : mesh_.vertices())
+      if (v != Vertex_handle() && !mesh_.is_fixed(v) && is_promising_[static_cast<std::size_t>(v->id())])
+        order.emplace_back(shortest_edge(v), v->id());
+    std::sort(order.begin(), order.end());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      goes_on_ = timer_.seconds() < options_.time_limit && (i % 64 != 0 || !options_.go_on || options_.go_on());
+      if (!goes_on_) return;
+      report_.removed += remove(order[i].second);
+    }
+  }
+
+  /// Interior vertices among excellent cells aren't tried: those of a lattice, which is as sparse as its size allows.
+  void leave_excellent()
+  {
+    const double smallest = cosine_of_degrees(smallest_excellent_dihedral),
+                 largest = cosine_of_degrees(largest_excellent_dihedral);
+    std::vector<char> is_excellent(is_promising_.size(), true);
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
+      if (Restricted::is_at_box(c) || has_dihedrals_between(c, smallest, largest)) continue;
+      for (int i = 0; i < 4; ++i) is_excellent[static_cast<std::size_t>(c->vertex(i)->id())] = false;
+    }
+    for (const Vertex_handle v : mesh_.vertices())
+      if (v->location().dimension == 3 && is_excellent[static_cast<std::size_t>(v->id())])
+        is_promising_[static_cast<std::size_t>(v->id())] = false;
+  }
+
+  double shortest_edge(Vertex_handle v)
+  {
+    neighbours_.clear();
+    mesh_.triangulation().finite_adjacent_vertices(v, std::back_inserter(neighbours_));
+    double shortest = HUGE_VAL;
+    for (const Vertex_handle w : neighbours_)
+      shortest = (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(v->point(), w->point())));
+    return shortest;
+  }
+
+  /// Takes a vertex away for good if nothing needs it.
+  bool remove(int id)
+  {
+    const Vertex_handle v = mesh_.vertices()[static_cast<std::size_t>(id)];
+    if (is_needed(v)) {
+      is_promising_[static_cast<std::size_t>(id)] = false;
+      return false;
+    }
+    ++report_.tried;
+    const double limit = (std::max)(bound_, worst_angle(v));
+    Vertex_transaction_3<Restricted> change(mesh_, v);
+    if (guard_.may_accept(change.filling())) {
+      change.leave_out(vacant_);
+      if (keeps_angles(change.filling(), limit) && guard_.accepts_change()) {
+        set_promising(change.filling());
+        change.commit();
+        return true;
+      }
+    }
+    is_promising_[static_cast<std::size_t>(id)] = false;
+    change.roll_back();
+    return false;
+  }
+
+  /// Whether the surface at a vertex on a patch is farther from every triangle between its neighbours there than facets
+  /// may be, and a little more: the facets that would fill its place are some of those triangles. That spares trials,
+  /// and leaves few vertices that could be taken away all the same.
+  bool is_needed(Vertex_handle v)
+  {
+    if (v->location().dimension != 2) return false;
+    const double bound = hopeless * guard_.measure().approximation(v->point());
+    if (bound == 0) return false;
+    neighbours_.clear();
+    for_each_facet_at(mesh_, v, [this, v](const typename Restricted::Restricted_facet& f) {
+      for (int i = 1; i < 4; ++i)
+        if (f.cell->vertex((f.index + i) & 3) != v) neighbours_.push_back(f.cell->vertex((f.index + i) & 3));
+    });
+    std::sort(neighbours_.begin(), neighbours_.end(),
+              [](Vertex_handle a, Vertex_handle b) { return a->id() < b->id(); });
+    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
+    const auto& n = neighbours_;
+    for (std::size_t i = 2; i < n.size(); ++i)
+      for (std::size_t j = 1; j < i; ++j)
+        for (std::size_t k = 0; k < j; ++k) {
+          const Point nearest = nearest_point_on_triangle(v->point(), n[i]->point(), n[j]->point(), n[k]->point());
+          if (CGAL::to_double(CGAL::squared_distance(nearest, v->point())) <= bound * bound) return false;
+        }
+    return true;
+  }
+
+  /// What was tried in vain is tried again only after a change near by: of facets for vertices on the boundary, since
+  /// those are what refuses them.
+  void set_promising(const std::vector<Cell_handle>& filling)
+  {
+    for (const Cell_handle c : filling)
+      for (int i = 0; i < 4; ++i)
+        if (c->vertex(i)->location().dimension == 3) is_promising_[static_cast<std::size_t>(c->vertex(i)->id())] = true;
+    for (const int record : mesh_.new_facets()) {
+      const auto& f = mesh_.facets()[static_cast<std::size_t>(record)];
+      for (int i = 1; i < 4; ++i)
+        is_promising_[static_cast<std::size_t>(f.cell->vertex((f.index + i) & 3)->id())] = true;
+    }
+  }
+
+  /// Cosine of the smallest dihedral angle of the cells around a vertex.
+  double worst_angle(Vertex_handle v)
+  {
+    star_.clear();
+    mesh_.triangulation().incident_cells(v, std::back_inserter(star_));
+    double worst = -1;
+    for (const Cell_handle c : star_)
+      if (c->subdomain() != 0) worst = (std::max)(worst, cosines_of_cell(c).smallest);
+    return worst;
+  }
+
+  static bool keeps_angles(const std::vector<Cell_handle>& filling, double limit)
+  {
+    return std::all_of(filling.begin(), filling.end(),
+                       [&](Cell_handle c) { return c->subdomain() == 0 || cosines_of_cell(c).smallest <= limit; });
+  }
+
+  static constexpr double hopeless = 1.3; ///< parts of the approximation bound
+
+  Restricted& mesh_;
+  Criteria_guard_3<Restricted>& guard_;
+  const Coarsen_options_3& options_;
+  double bound_ = 1;
+  bool goes_on_ = true;
+  std::vector<char> is_promising_; ///< by id
+  Vacant_numbers_3<Restricted> vacant_;
+  std::vector<Cell_handle> star_;
+  std::vector<Vertex_handle> neighbours_;
+  Timer timer_;
+  Coarsen_report_3 report_;
+};
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_OPTIMISE_MESH_COARSENER_3_H

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The first vertices of a mesh (Tournois 2009, sec. 3.2.1.3): feature vertices, points on creases, and seeds on patches
+// that would else be overlooked.
+
+#ifndef WEFT_SPATIAL_REFINE_BOUNDARY_SEEDER_3_H
+#define WEFT_SPATIAL_REFINE_BOUNDARY_SEEDER_3_H
+
+#include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/refine/Crease_divider_3.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace weft::internal {
+
+/// \tparam Restricted a Restricted_delaunay_3.
+template <class Restricted>
+class Boundary_seeder_3
+{
+public:
+  using Kernel = typename Restricted::Kernel;
+
+  /// \param most_vertices of the mesh. Feature vertices and the fewest points that make a polygon of a crease are
+  ///   inserted all the same.
+  Boundary_seeder_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, std::size_t most_vertices)
+      : mesh_(mesh), criteria_(criteria), most_vertices_(most_vertices)
+  {}
+
+  void insert_corners()
+  {
+    for (std::size_t i = 0; i < mesh_.oracle().number_of_corners(); ++i)
+      mesh_.insert(mesh_.oracle().corner(i), {0, static_cast<int>(i)});
+  }
+
+  /// Cuts creases into equal parts where that takes fewer of them than halving would, cycles and loops with one feature
+  /// vertex into three at least: the fewest that make a polygon.
+  void insert_crease_seeds()
+  {
+    const auto& oracle = mesh_.oracle();
+    for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) {
+      const auto& points = mesh_.creases().points(c);
+      const Crease_divider_3<Kernel> divider(points, criteria_);
+      const std::size_t least = points.front() == points.back() ? 3 : 1, parts = divider.parts(least);
+      for (std::size_t k = oracle.crease_is_closed(static_cast<int>(c)) ? 0 : 1; k < parts; ++k) {
+        if (k >= least && !has_room()) break;
+        mesh_.insert(divider.at(static_cast<double>(k) / static_cast<double>(parts)), {1, static_cast<int>(c)});
+      }
+    }
+  }
+
+  /// Up to n more points on every patch without a facet; returns how many there were.
+  std::size_t seed_bare_patches(std::size_t n)
+  {
+    const auto& oracle = mesh_.oracle();
+    std::vector<char> has_facet(static_cast<std::size_t>(oracle.number_of_patches()), false);
+    for (const auto& f : mesh_.facets())
+      if (f.cell != typename Restricted::Cell_handle()) has_facet[static_cast<std::size_t>(f.patch)] = true;
+    seeded_.resize(has_facet.size(), 0);
+    std::size_t inserted = 0;
+    for (std::size_t p = 0; p < has_facet.size(); ++p) {
+      if (has_facet[p] || seeded_[p] >= most_seeds || !oracle.is_expected(static_cast<int>(p))) continue;
+      const auto seeds = oracle.patch_seeds(static_cast<int>(p), seeded_[p] + n);
+      for (std::size_t k = seeded_[p]; k < seeds.size() && has_room(); ++k, ++inserted)
+        mesh_.insert(seeds[k].point, {2, static_cast<int>(p)});
+      seeded_[p] += n;
+    }
+    return inserted;
+  }
+
+private:
+  bool has_room() const { return mesh_.vertices().size() < most_vertices_; }
+
+  static constexpr std::size_t most_seeds = 40; ///< of a patch
+
+  Restricted& mesh_;
+  const Criteria_3<Kernel>& criteria_;
+  std::size_t most_vertices_;
+  std::vector<std::size_t> seeded_; ///< by patch, how many seeds it has been given
+};
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_REFINE_BOUNDARY_SEEDER_3_H
