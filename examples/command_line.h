@@ -147,13 +147,27 @@ public:
   std::optional<Length> length(const std::string& name, bool may_be_zero = false) const
   {
     if (!has(name)) return {};
-    std::string text = value(name);
-    const bool is_relative = text.back() == '%';
+    return read_length(name, value(name), may_be_zero);
+  }
+
+  /// The same for a text that is a part of the value of an option.
+  static Length read_length(const std::string& name, std::string text, bool may_be_zero = false)
+  {
+    const std::string whole = text;
+    const bool is_relative = !text.empty() && text.back() == '%';
     if (is_relative) text.pop_back();
     const auto number = parse<double>(text);
     if (!number || !std::isfinite(*number) || !(*number > 0 || (may_be_zero && *number == 0)))
-      refuse(name, "a positive length, or one in % of the bounding box diagonal");
+      throw Error(name + ": '" + whole + "' is not a positive length, or one in % of the bounding box diagonal");
     return Length{*number, is_relative};
+  }
+
+  /// A whole number. \throws Error as above.
+  static int read_integer(const std::string& name, const std::string& text)
+  {
+    const auto number = parse<int>(text);
+    if (!number) throw Error(name + ": '" + text + "' is not a whole number");
+    return *number;
   }
 
   /// The name of a file with the extension that it must have, or an empty string. \throws Error for other extensions.
@@ -329,13 +343,14 @@ public:
     announced_.push_back(filename);
   }
 
-  /// Calls `write(name)` with the name to write to.
+  /// Calls `write(name)` with the name to write to. Devices and pipes are written to as they are, not replaced.
   /// \throws Error if that fails.
   template <class Write>
   void add(const std::string& filename, const Write& write)
   {
-    const std::string temporary = reserve(filename);
-    written_.emplace_back(temporary, filename);
+    const bool is_file = !std::filesystem::exists(filename) || std::filesystem::is_regular_file(filename);
+    const std::string temporary = is_file ? reserve(filename) : filename;
+    if (is_file) written_.emplace_back(temporary, filename);
     try {
       write(temporary);
     } catch (const std::exception& error) {
@@ -400,11 +415,11 @@ int run_program(const std::string& name, const std::vector<Option>& options, con
 {
   try {
     const Arguments arguments(options, argc, argv);
-    if (arguments.has("--help") || arguments.has("--version")) {
-      std::cout << (arguments.has("--help") ? help() : name + " (weft) " WEFT_VERSION "\n");
-      return complete;
-    }
-    return run(arguments);
+    const bool asks = arguments.has("--help") || arguments.has("--version");
+    if (asks) std::cout << (arguments.has("--help") ? help() : name + " (weft) " WEFT_VERSION "\n");
+    const int status = asks ? complete : run(arguments);
+    if (!std::cout.flush()) throw Error("standard output can't be written; is the disk full?");
+    return status;
   } catch (const std::bad_alloc&) {
     complain(name, "out of memory");
   } catch (const std::exception& error) {

@@ -14,13 +14,16 @@
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/sizing/Lfs_sizing_2.h>
+#include <weft/planar/sizing/Region_sizing_2.h>
 #include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,12 +42,15 @@ using command_line::stopped_early;
 // ---- What is asked for
 
 const std::string usage =
-    "usage: mesh_2 INPUT (--size S | --lfs K) [--min-size S] [--min-angle DEG] [--output FILE]...\n"
+    "usage: mesh_2 INPUT [--size [MARK:]S]... [--lfs K] [--min-size S] [--min-angle DEG] [--output FILE]...\n"
     "              [--voronoi FILE.svg] [--histogram FILE.svg] [--report FILE.json] [--seed N] [--threads N]\n"
-    "              [--time-limit SECONDS] [--max-vertices N] [--split-crossings] [--quiet]\n";
+    "              [--time-limit SECONDS] [--max-vertices N] [--tolerance T] [--split-crossings] [--quiet]\n";
 
 const std::vector<command_line::Option> known_options = {
-    {"--size", "S", "largest edge length, in the input's units"},
+    {"--size", "[MARK:]S",
+     "largest edge length (default 5% without --lfs); after a mark, in regions with that mark\nonly, as in 2:0.1. A "
+     "region's bound on areas in a .poly file counts, too",
+     true},
     {"--lfs", "K", "edge lengths from the local feature size of the input, growing by at most K\nper unit of distance"},
     {"--min-size", "S", "smallest edge length that --lfs asks for"},
     {"--min-angle", "DEG", "smallest angle to refine for, up to 40 degrees, where the input allows it"},
@@ -61,7 +67,10 @@ const std::vector<command_line::Option> known_options = {
     {"--threads", "N", "threads to use; the mesh is the same for any number"},
     {"--time-limit", "SECONDS", "stop early after this time"},
     {"--max-vertices", "N", "stop early at this number of vertices"},
-    {"--split-crossings", "", "split segments that cross or overlap, instead of refusing them"},
+    {"--tolerance", "T",
+     "distance up to which points, or a point and a segment, count as touching (default 3e-10 of the\nlonger side of "
+     "the bounding box); 0: exact"},
+    {"--split-crossings", "", "split segments that cross, instead of refusing them"},
     {"--quiet", "", "no progress and no report; errors are still said"},
     {"--help", "", "print this and exit"},
     {"--version", "", "print the version and exit"}};
@@ -71,7 +80,8 @@ std::string help()
   return usage +
          "\nMeshes the domain that a planar straight line graph encloses with large, well-shaped triangles. INPUT is a "
          ".poly or\n.node file of Triangle, an .edg file of CGAL, or an .obj file with lines. If a .poly has holes "
-         "they bound the\ndomain; else a region belongs to it when an odd number of outlines surrounds it.\n\n" +
+         "they bound the\ndomain; else a region belongs to it when an odd number of outlines surrounds it, or when the file "
+         "names it. Lengths are\nin the input's units, or with a trailing % in parts of its bounding box diagonal.\n\n" +
          command_line::describe(known_options) +
          "\nExit status: 0 if the mesh meets all criteria; 1 for bad usage or bad input, when no file is written; 2 if "
          "the run\nstopped early, by a limit or by Ctrl-C, when the valid mesh so far is written.\n";
@@ -81,8 +91,11 @@ struct Request
 {
   std::string input;
   std::string size_text; ///< "size 0.1" or "lfs 0.5", for titles
-  double size = 0;       ///< 0: by lfs
-  double lfs = 0, min_size = 0;
+  command_line::Length size{5, true};
+  std::map<int, command_line::Length> size_of_mark;
+  double lfs = 0; ///< 0: by size
+  command_line::Length min_size{0, false};
+  std::optional<command_line::Length> tolerance;
   std::vector<std::string> outputs;
   std::string voronoi, histogram, report;
   bool split_crossings = false, quiet = false;
@@ -91,13 +104,29 @@ struct Request
 
 void read_sizes(const command_line::Arguments& arguments, Request& request)
 {
-  request.size = arguments.positive("--size").value_or(0);
+  std::string sizes;
+  bool has_general_size = false;
+  for (const std::string& text : arguments.values("--size")) {
+    const std::size_t colon = text.find(':');
+    sizes += " " + text;
+    if (colon == std::string::npos) {
+      if (std::exchange(has_general_size, true)) throw Error("--size is given twice");
+      request.size = command_line::Arguments::read_length("--size", text);
+    } else {
+      const int mark = command_line::Arguments::read_integer("--size", text.substr(0, colon));
+      const auto size = command_line::Arguments::read_length("--size", text.substr(colon + 1));
+      if (!request.size_of_mark.emplace(mark, size).second)
+        throw Error("--size is given twice for the mark " + std::to_string(mark));
+    }
+  }
   request.lfs = arguments.positive("--lfs").value_or(0);
-  request.min_size = arguments.positive("--min-size").value_or(0);
-  if (request.size > 0 && request.lfs > 0) throw Error("--size and --lfs exclude each other");
-  if (request.size == 0 && request.lfs == 0) throw Error("either --size or --lfs is needed");
-  if (request.min_size > 0 && request.lfs == 0) throw Error("--min-size goes with --lfs only");
-  request.size_text = request.lfs > 0 ? "lfs " + arguments.value("--lfs") : "size " + arguments.value("--size");
+  request.min_size = arguments.length("--min-size").value_or(request.min_size);
+  request.tolerance = arguments.length("--tolerance", true);
+  if (!sizes.empty() && request.lfs > 0) throw Error("--size and --lfs exclude each other");
+  if (request.min_size.value > 0 && request.lfs == 0) throw Error("--min-size goes with --lfs only");
+  request.size_text = request.lfs > 0 ? "lfs " + arguments.value("--lfs")
+                      : sizes.empty() ? std::string("size 5% of the diagonal, by default")
+                                      : "size" + sizes;
 }
 
 void read_options(const command_line::Arguments& arguments, Request& request)
@@ -141,35 +170,43 @@ Request read_request(const command_line::Arguments& arguments)
 
 // ---- Input
 
-/// Fills the triangulation and marks the domain.
-Tags read_domain(const Request& request, Cdt& cdt)
+/// A domain that is ready to be meshed.
+struct Domain
+{
+  Cdt cdt;
+  Tags tags;
+  Pslg graph; ///< as inserted: segments meet at their ends only, as the local feature size wants it
+  std::vector<std::string> notes;
+  double diagonal = 0;
+};
+
+/// Reads the input, fills the triangulation and marks the domain.
+Domain read_domain(const Request& request)
 {
   const Pslg pslg = weft::IO::read_pslg<K>(request.input);
+  Domain domain;
+  CGAL::Bbox_2 box;
+  for (const K::Point_2& p : pslg.points) box += p.bbox();
+  const double width = box.xmax() - box.xmin(), height = box.ymax() - box.ymin();
+  domain.diagonal = std::hypot(width, height);
   try {
-    const auto crossings = request.split_crossings ? weft::Crossings::split : weft::Crossings::refuse;
-    Tags tags = weft::insert_pslg(cdt, pslg, {crossings}).tags;
-    weft::mark_domain(cdt, pslg);
-    return tags;
+    weft::Pslg_options options;
+    if (request.split_crossings) options.crossings = weft::Crossings::split;
+    if (request.tolerance) options.tolerance = request.tolerance->in(domain.diagonal) / std::max(width, height);
+    auto inserted = weft::insert_pslg(domain.cdt, pslg, options);
+    domain.tags = std::move(inserted.tags);
+    domain.graph = std::move(inserted.graph);
+    domain.notes = std::move(inserted.changes.notes);
+    for (const std::string& warning : weft::mark_domain(domain.cdt, pslg).warnings) {
+      command_line::complain("mesh_2", "warning: " + request.input + ": " + warning);
+      domain.notes.push_back(warning);
+    }
+    return domain;
   } catch (const weft::Domain_error& error) {
     // Contacts between segments are the only fault that names two of them.
     const bool may_be_split = !request.split_crossings && error.elements().size() == 2;
     throw Error(request.input + ": " + error.what() + (may_be_split ? "; --split-crossings splits them" : ""));
   }
-}
-
-/// The graph as the triangulation has it: segments meet at their ends only, as the local feature size wants it.
-Pslg graph_of(const Cdt& cdt)
-{
-  Pslg graph;
-  std::map<K::Point_2, std::size_t> number;
-  for (const auto vertex : cdt.finite_vertex_handles()) {
-    number.emplace(vertex->point(), graph.points.size());
-    graph.points.push_back(vertex->point());
-  }
-  for (auto edge = cdt.constrained_edges_begin(); edge != cdt.constrained_edges_end(); ++edge)
-    graph.segments.push_back({number.at(edge->first->vertex(Cdt::ccw(edge->second))->point()),
-                              number.at(edge->first->vertex(Cdt::cw(edge->second))->point())});
-  return graph;
 }
 
 // ---- Output
@@ -235,13 +272,16 @@ std::string what_is_missing(const weft::Mesh_report_2& report, double min_angle)
 
 /// Meshes, writes all files and tells how it went.
 template <class Sizing>
-Status mesh(const Request& request, Cdt& cdt, const Tags& tags, const Sizing& sizing, command_line::Output_files& files)
+Status mesh(const Request& request, Domain& domain, const Sizing& sizing, command_line::Output_files& files)
 {
+  Cdt& cdt = domain.cdt;
+  const Tags& tags = domain.tags;
   const Cdt input = request.histogram.empty() ? Cdt() : cdt;
   Meshing_progress progress(!request.quiet, 0.5);
   weft::Mesh_options_2 options = request.options;
   options.visitor = std::ref(progress);
-  const weft::Mesh_report_2 report = weft::make_mesh_2(cdt, sizing, options);
+  weft::Mesh_report_2 report = weft::make_mesh_2(cdt, sizing, options);
+  report.notes = domain.notes;
   std::string missing = what_is_missing(report, options.min_angle);
   progress.bar().clear();
 
@@ -271,7 +311,11 @@ Status mesh(const Request& request, Cdt& cdt, const Tags& tags, const Sizing& si
   }
   files.commit();
   progress.bar().clear();
-  if (!request.quiet) std::cout << report << std::flush;
+  if (!request.quiet) {
+    std::cout << request.size_text << "\n" << report;
+    if (request.outputs.empty()) std::cout << "no mesh is written: --output FILE names one\n";
+    std::cout << std::flush;
+  }
   if (!missing.empty()) command_line::complain("mesh_2", missing);
   return missing.empty() ? complete : stopped_early;
 }
@@ -279,16 +323,22 @@ Status mesh(const Request& request, Cdt& cdt, const Tags& tags, const Sizing& si
 Status run(const Request& request)
 {
   command_line::Output_files files;
-  Cdt cdt;
-  const Tags tags = read_domain(request, cdt);
+  Domain domain = read_domain(request);
   for (const std::string& filename : request.outputs) files.announce(filename);
   for (const std::string& filename : {request.voronoi, request.histogram, request.report})
     if (!filename.empty()) files.announce(filename);
   const command_line::Interruption interruption;
+  const double size = request.size.in(domain.diagonal);
+  const bool has_areas = std::any_of(domain.tags.regions.begin(), domain.tags.regions.end(),
+                                     [](const auto& region) { return region.max_area > 0; });
   try {
     if (request.lfs > 0)
-      return mesh(request, cdt, tags, weft::Lfs_sizing_2<K>(graph_of(cdt), request.lfs, request.min_size), files);
-    return mesh(request, cdt, tags, weft::Uniform_sizing<>(request.size), files);
+      return mesh(request, domain,
+                  weft::Lfs_sizing_2<K>(domain.graph, request.lfs, request.min_size.in(domain.diagonal)), files);
+    if (request.size_of_mark.empty() && !has_areas) return mesh(request, domain, weft::Uniform_sizing<>(size), files);
+    std::map<int, double> size_of_mark;
+    for (const auto& [mark, length] : request.size_of_mark) size_of_mark[mark] = length.in(domain.diagonal);
+    return mesh(request, domain, weft::Region_sizing_2<Cdt>(domain.cdt, domain.tags, size, size_of_mark), files);
   } catch (const weft::Domain_error& error) {
     throw Error(request.input + ": " + error.what());
   }

@@ -36,8 +36,9 @@ namespace weft {
 /// other data). On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
 ///
 /// Time is about linear in the number of vertices; the result depends on nothing but the arguments, not on threads.
-/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Mesh_triangulation_2.h. Neither
-///         PLACE
+/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Mesh_triangulation_2.h, or a
+///         `Constrained_triangulation_plus_2` of it, whose polylines get the Steiner points. No
+///         `Triangulation_hierarchy_2`, whose levels the mesher doesn't keep.
 /// \param sizing callable, point -> largest edge length in the input's units; or a number, which holds everywhere.
 /// \throws Option_error for options out of range, and when the sizing field returns anything but positive numbers.
 /// \throws Domain_error when there is no domain.

@@ -173,6 +173,9 @@ inline void append_json(Json_text& json, const Mesh_report_2& r)
   json.member("below_min_angle", r.below_min_angle).member("at_input_angle", r.at_input_angle);
   json.member("batches", r.batches).member("sweeps", r.sweeps).member("flips", r.flips);
   json.member("moves", r.moves).member("put_back", r.put_back).member("polished", r.polished);
+  json.begin_array("notes");
+  for (const std::string& note : r.notes) json.begin_object().member("note", note).end();
+  json.end();
   json.begin_array("stages");
   for (const auto& [stage, seconds] : r.stage_seconds)
     json.begin_object().member("name", stage).member("seconds", seconds).end();
