@@ -123,7 +123,8 @@ TEST_CASE("a full device is an error, whatever is written to it")
     CHECK(folder.files() == Names{"square.poly", name});
     fs::remove(fs::current_path() / "mesh_2_program_test_full" / name);
   }
-  const Outcome standard_output = folder.run("square.poly --size 0.3; true", "exec >/dev/full; ");
+  const Outcome standard_output = folder.run("square.poly --size 0.3", "sh -c '\"$0\" \"$@\" >/dev/full'");
+  CHECK(standard_output.status == 1);
   CHECK(contains(standard_output.err, "standard output can't be written"));
 }
 

@@ -218,6 +218,24 @@ TEST_CASE("data of a type of the user's own comes from the part between constrai
     CHECK(name_of.emplace(now.number[face], face->name).first->second == face->name);
 }
 
+TEST_CASE("numbers of regions at faces come from the input as the manual shows")
+{
+  Cdt cdt;
+  fill(cdt, insert_links<Cdt>);
+  const int parts = weft::label_components(cdt);
+  weft::mark_domain_by_seeds(cdt, static_cast<Point*>(nullptr), static_cast<Point*>(nullptr));
+  const weft::Input_faces_2<Cdt> input(cdt);
+  weft::make_mesh_2(cdt, 0.1);
+  input.for_each(cdt, [](auto input_face, auto face) { face->set_id(input_face->id()); });
+  std::set<int> seen;
+  for (const auto face : cdt.finite_face_handles())
+    if (face->is_in_domain()) seen.insert(face->id());
+  CHECK(seen.size() == static_cast<std::size_t>(parts) - 1);
+  for (const auto face : cdt.finite_face_handles())
+    for (int i = 0; i < 3 && face->is_in_domain(); ++i)
+      CHECK((face->neighbor(i)->id() == face->id()) == !face->is_constrained(i));
+}
+
 TEST_CASE("marks of edges and regions hold after meshing")
 {
   Pslg pslg;
