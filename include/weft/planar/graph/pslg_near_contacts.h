@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is nearly in contact in a planar straight line graph: points closer to each other than a tolerance, points
-// within it of a segment. Nearest points come from CGAL's Delaunay triangulation, candidates of points and segments
-// from its intersection of boxes. Distances are computed in floating point, as a tolerance allows.
+// What is nearly in contact in a planar straight line graph: points closer to each other than a tolerance, which a
+// hashed grid finds, and points within it of a segment, among candidates from CGAL's intersection of boxes. Distances
+// are computed in floating point, as a tolerance allows.
 //
 // Not meant for users.
 
@@ -12,22 +12,21 @@
 #include <weft/planar/graph/pslg_contacts.h>
 
 #include <CGAL/Bbox_2.h>
-#include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/number_utils.h>
-#include <CGAL/Triangulation_data_structure_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 namespace weft::internal {
 
-/// Points that keep a distance from each other. Adding one takes time as locating it in a Delaunay triangulation from
-/// the point that was added before.
+/// Points that keep a distance from each other, in a hashed grid whose cells are that wide. Adding one takes constant
+/// time, since only a few of them fit into a cell.
 template <class K>
 class Spaced_points_2
 {
@@ -38,26 +37,45 @@ public:
 
   /// Adds a point with the index `fresh`, unless the nearest of those there is no farther than the distance.
   /// \returns the index of the point that stands for it.
-  std::size_t add(const Point& p, std::size_t fresh)
+  std::size_t add(const Point& point, std::size_t fresh)
   {
-    if (points_.number_of_vertices() > 0) {
-      const auto nearest = points_.nearest_vertex(p, hint_);
-      const Point& q = nearest->point();
-      const double d = std::hypot(CGAL::to_double(q.x()) - CGAL::to_double(p.x()),
-                                  CGAL::to_double(q.y()) - CGAL::to_double(p.y()));
-      if (d <= distance_) return nearest->info();
-    }
-    const auto vertex = points_.insert(p, hint_);
-    vertex->info() = fresh;
-    hint_ = vertex->face();
+    const Entry entry{CGAL::to_double(point.x()), CGAL::to_double(point.y()), fresh};
+    const Cell cell{std::floor(entry.x / distance_), std::floor(entry.y / distance_)};
+    const Entry* nearest = nullptr;
+    double least = distance_;
+    for (const double dx : {-1., 0., 1.})
+      for (const double dy : {-1., 0., 1.}) {
+        const auto found = cells_.find({cell[0] + dx, cell[1] + dy});
+        if (found == cells_.end()) continue;
+        for (const Entry& other : found->second) {
+          const double d = std::hypot(other.x - entry.x, other.y - entry.y);
+          if (d > least || (nearest != nullptr && d == least && other.index > nearest->index)) continue;
+          least = d;
+          nearest = &other;
+        }
+      }
+    if (nearest != nullptr) return nearest->index;
+    cells_[cell].push_back(entry);
     return fresh;
   }
 
 private:
-  using Points = CGAL::Delaunay_triangulation_2<
-      K, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<std::size_t, K>>>;
-  Points points_;
-  typename Points::Face_handle hint_;
+  struct Entry
+  {
+    double x, y;
+    std::size_t index;
+  };
+  using Cell = std::array<double, 2>; // whole numbers, which may be too large for integers
+  struct Hash
+  {
+    std::size_t operator()(const Cell& cell) const
+    {
+      const std::hash<double> hash;
+      return hash(cell[0]) * 31 + hash(cell[1]);
+    }
+  };
+
+  std::unordered_map<Cell, std::vector<Entry>, Hash> cells_;
   double distance_;
 };
 
