@@ -175,7 +175,6 @@ struct Domain
 {
   Cdt cdt;
   Tags tags;
-  Pslg graph; ///< as inserted: segments meet at their ends only, as the local feature size wants it
   std::vector<std::string> notes;
   double diagonal = 0;
 };
@@ -195,7 +194,6 @@ Domain read_domain(const Request& request)
     if (request.tolerance) options.tolerance = request.tolerance->in(domain.diagonal) / std::max(width, height);
     auto inserted = weft::insert_pslg(domain.cdt, pslg, options);
     domain.tags = std::move(inserted.tags);
-    domain.graph = std::move(inserted.graph);
     domain.notes = std::move(inserted.changes.notes);
     for (const std::string& warning : weft::mark_domain(domain.cdt, pslg).warnings) {
       command_line::complain("mesh_2", "warning: " + request.input + ": " + warning);
@@ -207,6 +205,21 @@ Domain read_domain(const Request& request)
     const bool may_be_split = !request.split_crossings && error.elements().size() == 2;
     throw Error(request.input + ": " + error.what() + (may_be_split ? "; --split-crossings splits them" : ""));
   }
+}
+
+/// The graph as the triangulation has it: segments meet at their ends only, as the local feature size wants it.
+Pslg graph_of(const Cdt& cdt)
+{
+  Pslg graph;
+  std::map<K::Point_2, std::size_t> number;
+  for (const auto vertex : cdt.finite_vertex_handles()) {
+    number.emplace(vertex->point(), graph.points.size());
+    graph.points.push_back(vertex->point());
+  }
+  for (auto edge = cdt.constrained_edges_begin(); edge != cdt.constrained_edges_end(); ++edge)
+    graph.segments.push_back({number.at(edge->first->vertex(Cdt::ccw(edge->second))->point()),
+                              number.at(edge->first->vertex(Cdt::cw(edge->second))->point())});
+  return graph;
 }
 
 // ---- Output
@@ -334,7 +347,7 @@ Status run(const Request& request)
   try {
     if (request.lfs > 0)
       return mesh(request, domain,
-                  weft::Lfs_sizing_2<K>(domain.graph, request.lfs, request.min_size.in(domain.diagonal)), files);
+                  weft::Lfs_sizing_2<K>(graph_of(domain.cdt), request.lfs, request.min_size.in(domain.diagonal)), files);
     if (request.size_of_mark.empty() && !has_areas) return mesh(request, domain, weft::Uniform_sizing<>(size), files);
     std::map<int, double> size_of_mark;
     for (const auto& [mark, length] : request.size_of_mark) size_of_mark[mark] = length.in(domain.diagonal);
