@@ -62,8 +62,9 @@ public:
   std::vector<Hit> patch_seeds(int, std::size_t n) const // on a spiral
   {
     std::vector<Hit> seeds;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double z = (2. * k + 1) / n - 1, s = std::sqrt(1 - z * z), turn = 2.39996322972865332 * k;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double k = static_cast<double>(i), z = (2 * k + 1) / static_cast<double>(n) - 1;
+      const double s = std::sqrt(1 - z * z), turn = 2.39996322972865332 * k;
       seeds.push_back({Point(s * std::cos(turn), s * std::sin(turn), z), 0});
     }
     return seeds;

@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 #include "improve_program.h"
+#include "program_options.h"
 
 #include <weft/improve_2.h>
 #include <weft/IO/read_triangle_mesh.h>
@@ -13,94 +14,68 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <string>
-#include <vector>
 
 namespace {
 
 using K = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = weft::Triangle_mesh_2<K>;
-using command_line::Error;
 using command_line::Status;
 
 // ---- What is asked for
 
-const std::string usage =
+const std::string before_options =
     "usage: improve_2 INPUT [--boundary slide|fixed] [--corner-angle DEG] [--deviation PART] [--min-angle DEG]\n"
     "                 [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
-    "                 [--time-limit SECONDS] [--quiet]\n";
+    "                 [--time-limit SECONDS] [--quiet]\n\n"
+    "Raises the smallest angles of a planar triangle mesh of any origin. INPUT is a .msh (Gmsh 2 or 4.1, ASCII), "
+    ".mesh\n(Medit), .vtu (VTK), .off or .ele (Triangle, with its .node and its .poly or .edge files) file. Triangles "
+    "may be\nslivers, not Delaunay, or inverted. Tags are kept; edges between tags and those of the file stay edges.\n";
 
-const std::vector<command_line::Option> known_options = {
-    {"--boundary", "slide|fixed",
-     "slide: vertices on the boundary, between regions and on other edges of the file\nslide along them, come and go; "
-     "fixed: every such edge stays (default slide)"},
-    {"--corner-angle", "DEG",
-     "the boundary has a corner, which stays, where it turns by this angle or more (default\n20); 0: curves stay "
-     "exactly "
-     "as they are, only vertices of straight parts slide"},
-    {"--deviation", "PART",
-     "how far a curve may get from that of the input where its vertices are respaced, in\nparts of the length of edges "
-     "nearby (default 0.1)"},
-    {"--min-angle", "DEG",
-     "smallest angle to work for, 60 to go as far as possible; without it 35, if it can be\nreached"},
-    {"--output", "FILE",
-     "the mesh; may be given several times. The extension is the format: .vtu (VTK),\n.mesh (Medit), .msh (Gmsh), "
-     ".off, or .svg, a picture coloured by quality",
-     true},
-    {"--report", "FILE.json", "counts, quality before and after, time per stage"},
-    {"--histogram", "FILE.svg", "a picture of the distributions of angles before and after"},
-    {"--seed", "N", "start of every random choice"},
-    {"--threads", "N", "threads to use; the mesh is the same for any number"},
-    {"--time-limit", "SECONDS", "stop early after this time"},
-    {"--quiet", "", "no progress and no report; errors are still said"},
-    {"--help", "", "print this and exit"},
-    {"--version", "", "print the version and exit"}};
+const std::string after_options =
+    "Exit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it "
+    "stopped\nearly, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, when the mesh so far is "
+    "written.\n";
 
-std::string help()
-{
-  return usage +
-         "\nRaises the smallest angles of a planar triangle mesh of any origin. INPUT is a .msh (Gmsh 2 or 4.1, "
-         "ASCII), "
-         ".mesh\n(Medit), .vtu (VTK), .off or .ele (Triangle, with its .node and its .poly or .edge files) file. "
-         "Triangles may be\nslivers, not Delaunay, or inverted. Tags are kept; edges between tags and those of the "
-         "file "
-         "stay edges.\n\n" +
-         command_line::describe(known_options) +
-         "\nExit status: 0 if the run ended by itself; 1 for bad usage or bad input, when no file is written; 2 if it "
-         "stopped\nearly, by a limit or by Ctrl-C, or an angle that was asked for wasn't reached, when the mesh so far "
-         "is written.\n";
-}
-
-struct Request : improve_program::Files
+struct Request : command_line::Files
 {
   weft::Improve_options_2 options;
+  std::string boundary;
   double min_angle = 0; ///< 0: not asked for
 };
 
-void read_options(const command_line::Arguments& arguments, Request& request)
+void add_options(command_line::Options& options, Request& request)
 {
-  auto& options = request.options;
-  const bool is_fixed = improve_program::read_boundary_is_fixed(arguments, {"--corner-angle", "--deviation"});
-  options.boundary = is_fixed ? weft::Boundary_2::fixed : weft::Boundary_2::slide;
-  options.corner_angle = arguments.number("--corner-angle", 0, 90).value_or(options.corner_angle);
-  options.deviation = arguments.number("--deviation", 0, 1).value_or(options.deviation);
-  request.min_angle = arguments.number("--min-angle", 0, 60).value_or(0);
-  if (arguments.has("--min-angle")) options.min_angle = request.min_angle;
-  options.time_limit = arguments.positive("--time-limit").value_or(options.time_limit);
-  options.seed = arguments.integer<unsigned>("--seed", 0, std::numeric_limits<unsigned>::max()).value_or(options.seed);
-  options.threads = arguments.integer<int>("--threads", 1, 1024).value_or(options.threads);
+  auto& run = request.options;
+  options.operands(request.inputs);
+  options.text("--boundary", "slide|fixed", request.boundary,
+               "slide: vertices on the boundary, between regions and on other edges of the file\nslide along them, "
+               "come and go; fixed: every such edge stays (default slide)");
+  options.number("--corner-angle", "DEG", 0, 90, run.corner_angle,
+                 "the boundary has a corner, which stays, where it turns by this angle or more (default\n20); 0: "
+                 "curves stay exactly as they are, only vertices of straight parts slide");
+  options.number("--deviation", "PART", 0, 1, run.deviation,
+                 "how far a curve may get from that of the input where its vertices are respaced, in\nparts of the "
+                 "length of edges nearby (default 0.1)");
+  options.number("--min-angle", "DEG", 0, 60, request.min_angle,
+                 "smallest angle to work for, 60 to go as far as possible; without it 35, if it can be\nreached");
+  add_outputs(options, request,
+              ".vtu (VTK),\n.mesh (Medit), .msh (Gmsh), .off, or .svg, a picture coloured by quality");
+  add_report(options, request, "counts, quality before and after, time per stage");
+  add_histogram(options, request, "a picture of the distributions of angles before and after");
+  add_seed_threads_and_time(options, run);
+  add_quiet(options, request);
 }
 
-Request read_request(const command_line::Arguments& arguments)
+/// What options mean together.
+void check(const command_line::Options& options, Request& request)
 {
-  Request request;
-  improve_program::read_files(arguments, "improve_2", weft::IO::is_mesh_filename, ".vtu, .mesh, .msh, .off or .svg",
-                              request);
-  read_options(arguments, request);
-  return request;
+  check_single_input(request);
+  check_files("improve_2", request, weft::IO::is_mesh_filename, ".vtu, .mesh, .msh, .off or .svg");
+  const bool is_fixed =
+      improve_program::is_boundary_fixed(options, request.boundary, {"--corner-angle", "--deviation"});
+  request.options.boundary = is_fixed ? weft::Boundary_2::fixed : weft::Boundary_2::slide;
+  if (options.has("--min-angle")) request.options.min_angle = request.min_angle;
 }
 
 // ---- The run
@@ -109,12 +84,11 @@ Request read_request(const command_line::Arguments& arguments)
 std::string what_is_missing(const Request& request, const weft::Improve_report_2& report)
 {
   std::string text;
-  const auto append = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
-  if (report.inverted_after > 0) append(std::to_string(report.inverted_after) + " triangles are still inverted");
+  using command_line::append_to_list;
+  if (report.inverted_after > 0)
+    append_to_list(text, std::to_string(report.inverted_after) + " triangles are still inverted");
   if (report.below_min_angle > 0 && request.min_angle > 0 && request.min_angle < 60)
-    append("the smallest angle is " +
-           weft::internal::one_decimal(std::floor(10 * report.after.smallest_angle.degrees) / 10) + " degrees, not " +
-           weft::internal::one_decimal(request.min_angle));
+    append_to_list(text, command_line::too_small("angle", report.after.smallest_angle.degrees, request.min_angle));
   return improve_program::with_stop_reason(report.stop_reason, text);
 }
 
@@ -136,7 +110,5 @@ Status run(const Request& request)
 
 int main(int argc, char** argv)
 {
-  return command_line::run_program(
-      "improve_2", known_options, help,
-      [](const command_line::Arguments& arguments) { return run(read_request(arguments)); }, argc, argv);
+  return command_line::run_program("improve_2", before_options, after_options, add_options, check, run, argc, argv);
 }

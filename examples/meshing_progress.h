@@ -5,7 +5,8 @@
 #ifndef WEFT_EXAMPLES_MESHING_PROGRESS_H
 #define WEFT_EXAMPLES_MESHING_PROGRESS_H
 
-#include "command_line.h"
+#include "interruption.h"
+#include "progress_bar.h"
 
 #include <weft/visitor.h>
 

@@ -3,7 +3,7 @@
 // Properties of the conversion to CGAL's Mesh_complex_3_in_triangulation_3: it has the same elements with the same
 // tags, and CGAL's own sliver exudation and Medit writer work on it. The only test that compiles CGAL's Mesh_3.
 
-#include "spatial_fixtures.h"
+#include "fixtures/spatial_fixtures.h"
 
 #include <weft/spatial/cgal/to_c3t3.h>
 #include <weft/spatial/mesh/quality_3.h>

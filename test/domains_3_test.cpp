@@ -2,25 +2,20 @@
 //
 // Domains that aren't one closed surface: implicit functions, labellings, labelled images, several surfaces.
 
-#include "meshing_fixtures_3.h"
+#include "fixtures/domains_3.h"
+#include "fixtures/meshing_fixtures_3.h"
 
-#include <weft/spatial/domain/Implicit_oracle_3.h>
-#include <weft/spatial/domain/Label_image_3.h>
-#include <weft/spatial/surface/merge_surfaces_3.h>
-
-#include <functional>
 #include <map>
 #include <random>
 
 namespace {
 
+using domains::Implicit;
+using domains::Labelled;
+using domains::Labelling;
 using meshing::K;
 using meshing::Mesh;
 using meshing::Point;
-using Function = std::function<double(const Point&)>;
-using Labelling = std::function<int(const Point&)>;
-using Implicit = weft::Implicit_oracle_3<K, Function>;
-using Labelled = weft::Labelled_oracle_3<K, Labelling>;
 
 const double pi = std::acos(-1.0);
 

@@ -3,7 +3,7 @@
 // Random planar straight line graphs, sizes and options: each run ends in time, in one of weft's errors or in a valid
 // mesh. Every case has a seed of its own, which is in the message when it fails.
 
-#include "planar_fixtures.h"
+#include "fixtures/meshing_2.h"
 
 #include <weft/make_mesh_2.h>
 #include <weft/planar/sizing/Lfs_sizing_2.h>

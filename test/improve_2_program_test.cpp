@@ -3,7 +3,7 @@
 // Properties of the program improve_2 as a user sees it: exit statuses, what it says and where, and which files are
 // there afterwards.
 
-#include "program_fixture.h"
+#include "fixtures/program_fixture.h"
 
 #include <weft/version.h>
 

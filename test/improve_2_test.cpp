@@ -4,7 +4,7 @@
 // the last bit, nothing gets worse, slivers and inverted triangles go; files come back as they were written, and what
 // isn't a mesh is refused with the elements to blame.
 
-#include "planar_fixtures.h"
+#include "fixtures/improvement_2.h"
 
 #include <weft/improve_2.h>
 #include <weft/IO/read_triangle_mesh.h>

@@ -3,8 +3,8 @@
 // Properties of the program improve_3 as a user sees it: exit statuses, what it says and where, and which files are
 // there afterwards.
 
-#include "program_fixture.h"
-#include "spatial_fixtures.h"
+#include "fixtures/program_fixture.h"
+#include "fixtures/spatial_fixtures.h"
 
 #include <weft/IO/write_mesh_3.h>
 #include <weft/version.h>

@@ -3,7 +3,8 @@
 // Properties of improving tetrahedral meshes that there are: what slides stays on the surface, what is fixed stays to
 // the last bit, nothing gets worse, slivers and inverted cells go.
 
-#include "spatial_fixtures.h"
+#include "fixtures/improvement_3.h"
+#include "fixtures/spatial_fixtures.h"
 
 #include <weft/improve_3.h>
 #include <weft/IO/read_tetrahedral_mesh.h>

@@ -3,7 +3,7 @@
 // Properties of Lloyd's iteration on the bounded Voronoi diagram and of its quadratures: targets are the centroids of
 // cells, quadratures converge to closed forms, and the iteration lowers the energy whose minima it looks for.
 
-#include "planar_fixtures.h"
+#include "fixtures/planar_fixtures.h"
 
 #include <weft/planar/relax/Lloyd_2.h>
 #include <weft/planar/relax/quadrature_2.h>

@@ -4,14 +4,12 @@
 // reproducible bit for bit, budgets and failing fields leave valid meshes, and neither place nor order of the input
 // matter much.
 
-#include "planar_fixtures.h"
+#include "fixtures/cgal_mesh_2.h"
+#include "fixtures/meshing_2.h"
 
 #include <weft/IO/read_pslg.h>
 #include <weft/make_mesh_2.h>
 #include <weft/planar/sizing/Lfs_sizing_2.h>
-
-#include <CGAL/Delaunay_mesh_size_criteria_2.h>
-#include <CGAL/Delaunay_mesher_2.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,7 +20,6 @@ namespace {
 using namespace planar;
 using weft::Mesh_options_2;
 using weft::Mesh_report_2;
-using Uniform = weft::Uniform_sizing<>;
 
 struct Named_field
 {
@@ -847,16 +844,6 @@ TEST_CASE("meshing a mesh again keeps all its vertices and meets a smaller size"
 
 namespace {
 
-Cdt mesh_by_cgal(const Pslg& pslg, double size)
-{
-  Cdt cdt = triangulate(pslg);
-  CGAL::Delaunay_mesher_2<Cdt, CGAL::Delaunay_mesh_size_criteria_2<Cdt>> mesher(cdt, {0.125, size});
-  mesher.refine_mesh();
-  for (const auto f : cdt.all_face_handles()) f->set_in_domain(false);
-  weft::mark_domain_by_parity(cdt);
-  return cdt;
-}
-
 void check_relaxing_a_mesh_of_cgal(const Domain& domain)
 {
   INFO(domain.name);
@@ -895,12 +882,13 @@ TEST_CASE("relaxing a mesh of CGAL's mesher improves it and keeps all that is gi
 
 TEST_CASE("relaxing never makes a mesh worse, whatever sizes it was made for and however early it ends")
 {
-  for (const Domain& domain : domains())
+  for (const Domain& domain : domains()) {
+    const Cdt mesh = mesh_by_cgal(domain.pslg, 0.06);
     for (const double size : {0.01, 0.03, 0.05, 0.08, 0.3})
       for (const int sweeps : {0, 1, 3, 100})
         for (const bool polish : {false, true}) {
           INFO(domain.name << ", size " << size << ", sweeps " << sweeps << ", polish " << polish);
-          Cdt cdt = mesh_by_cgal(domain.pslg, 0.06);
+          Cdt cdt = mesh;
           const weft::Quality_2 before = weft::measure_quality_2(cdt);
           const double ratio = weft::measure_sizing_2(cdt, Uniform(size)).triangles.largest;
           Mesh_options_2 options;
@@ -914,6 +902,7 @@ TEST_CASE("relaxing never makes a mesh worse, whatever sizes it was made for and
           CHECK(after.largest_angle.degrees <= before.largest_angle.degrees + 1e-6);
           CHECK(weft::measure_sizing_2(cdt, Uniform(size)).triangles.largest <= (std::max)(1.0, ratio * (1 + 1e-6)));
         }
+  }
 }
 
 TEST_CASE("points a unit in the last place apart, and equal ones, are meshed")

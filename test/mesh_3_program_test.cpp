@@ -3,7 +3,7 @@
 // Properties of the program mesh_3 as a user sees it: exit statuses, what it says and where, and which files are there
 // afterwards. The program is run for each of them in an empty folder.
 
-#include "program_fixture.h"
+#include "fixtures/program_fixture.h"
 
 #include <weft/version.h>
 

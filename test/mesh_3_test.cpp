@@ -4,8 +4,8 @@
 // keeps agrees with what the oracle says after every batch, and that every run ends, early or not, with a sound
 // triangulation and a report that tells what it is.
 
-#include "meshing_fixtures_3.h"
-#include "surface_fixtures.h"
+#include "fixtures/meshing_fixtures_3.h"
+#include "fixtures/surface_fixtures.h"
 
 #include <weft/IO/read_surface.h>
 #include <weft/make_mesh_3.h>

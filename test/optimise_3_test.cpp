@@ -3,8 +3,8 @@
 // Properties of spatial optimisation: where smoothers want vertices to be, what moving many vertices at once leaves
 // behind, that smoothing and coarsening undo nothing that refinement has achieved, and the whole interleaved run.
 
-#include "meshing_fixtures_3.h"
-#include "surface_fixtures.h"
+#include "fixtures/meshing_fixtures_3.h"
+#include "fixtures/surface_fixtures.h"
 
 #include <weft/make_mesh_3.h>
 #include <weft/spatial/criteria/Deviation_3.h>

@@ -3,9 +3,8 @@
 // Properties of inputs that are less than perfect, or say more than their outlines: parts that touch up to rounding,
 // points that nearly coincide, points of holes and regions, sizes per region.
 
-#include "planar_fixtures.h"
+#include "fixtures/meshing_2.h"
 
-#include <weft/make_mesh_2.h>
 #include <weft/planar/graph/Mesh_marks_2.h>
 #include <weft/planar/sizing/Region_sizing_2.h>
 

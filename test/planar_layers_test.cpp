@@ -3,9 +3,8 @@
 // Properties of triangulations that carry more than the mesher needs: polylines of CGAL's
 // Constrained_triangulation_plus_2 stay whole, data of users in faces survives.
 
-#include "planar_fixtures.h"
+#include "fixtures/meshing_2.h"
 
-#include <weft/make_mesh_2.h>
 #include <weft/planar/graph/Input_faces_2.h>
 #include <weft/planar/graph/Mesh_marks_2.h>
 

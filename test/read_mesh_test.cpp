@@ -3,7 +3,7 @@
 // Properties of what brings tetrahedral meshes in: files of all formats, arrays and C3t3s come back as they were
 // written, and what isn't a mesh is refused with the element and the line to blame.
 
-#include "spatial_fixtures.h"
+#include "fixtures/spatial_fixtures.h"
 
 #include <weft/IO/read_tetrahedral_mesh.h>
 #include <weft/IO/write_mesh_3.h>

@@ -3,7 +3,7 @@
 // Properties of moving many vertices at once: whatever the targets are, the triangulation is valid and constrained
 // Delaunay afterwards, and what is reported is what has happened.
 
-#include "planar_fixtures.h"
+#include "fixtures/planar_fixtures.h"
 
 #include <weft/planar/triangulation/Relocator_2.h>
 

@@ -3,7 +3,8 @@
 // Properties of what comes after the spatial mesher: the writers lose nothing, the measures agree with closed forms,
 // and the checkers find every fault that is planted.
 
-#include "spatial_fixtures.h"
+#include "fixtures/checks_3.h"
+#include "fixtures/spatial_fixtures.h"
 
 #include <weft/errors.h>
 #include <weft/IO/write_gmsh_2.h>

@@ -4,7 +4,7 @@
 // feature vertices agree with brute force; whatever doesn't qualify is refused with the right elements named, or
 // repaired.
 
-#include "surface_fixtures.h"
+#include "fixtures/surfaces_3.h"
 
 #include <weft/IO/read_surface.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>

@@ -5,8 +5,8 @@
 #ifndef WEFT_BENCHMARK_CORPUS_CORPUS_MUTATIONS_H
 #define WEFT_BENCHMARK_CORPUS_CORPUS_MUTATIONS_H
 
-#include "../../test/planar_graphs.h"
-#include "../../test/surface_fixtures.h"
+#include "../../test/fixtures/planar_graphs.h"
+#include "../../test/fixtures/surface_fixtures.h"
 
 #include <CGAL/centroid.h>
 

@@ -112,7 +112,7 @@ inline Whole_run whole_run(const Spatial_domain& domain, Family family, const Bo
 inline Weft_mesh refined_mesh(const Spatial_domain& domain, const Bounds& bounds)
 {
   return weft::make_mesh_3(domain.oracle(), weft_criteria(domain.input(), bounds), weft::Mesh_options_3::refinement())
-      .mesh;
+      .restricted;
 }
 
 /// Cells with a dihedral angle below so many degrees.

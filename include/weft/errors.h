@@ -7,6 +7,8 @@
 #ifndef WEFT_ERRORS_H
 #define WEFT_ERRORS_H
 
+#include <weft/internal/cold.h>
+
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -26,7 +28,7 @@ public:
 class File_error : public Error
 {
 public:
-  File_error(const std::string& file, std::size_t line, const std::string& what)
+  WEFT_COLD File_error(const std::string& file, std::size_t line, const std::string& what)
       : Error(file + (line ? ":" + std::to_string(line) : std::string()) + ": " + what), line_(line)
   {}
   std::size_t line() const { return line_; }

@@ -16,7 +16,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/answers.h>
-#include <weft/internal/Run.h>
+#include <weft/internal/run/Run.h>
 #include <weft/planar/mesh/assemble_mesh_2.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/mesh/Scaled_triangle_2.h>

@@ -5,6 +5,7 @@
 #ifndef WEFT_REPORT_H
 #define WEFT_REPORT_H
 
+#include <weft/internal/cold.h>
 #include <weft/internal/counted.h>
 #include <weft/visitor.h>
 
@@ -46,7 +47,7 @@ struct Mesh_report_2
 };
 
 /// Several lines for a person.
-inline std::ostream& operator<<(std::ostream& out, const Mesh_report_2& r)
+WEFT_COLD inline std::ostream& operator<<(std::ostream& out, const Mesh_report_2& r)
 {
   using internal::counted;
   out << counted(r.vertices, "vertex (", "vertices (") << r.input_vertices << " given, " << r.constraint_steiner
@@ -124,7 +125,7 @@ struct Mesh_report_3
 };
 
 /// Several lines for a person.
-inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
+WEFT_COLD inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3& r)
 {
   using internal::counted;
   const auto unsatisfied = [&out](const Unsatisfied_3& u, const char* what) {

@@ -19,8 +19,9 @@ class WeftConan(ConanFile):
     topics = ("mesh-generation", "delaunay", "computational-geometry", "header-only")
     package_type = "header-library"
     settings = "os", "arch", "compiler", "build_type"
-    options = {"with_tbb": [True, False]}
-    default_options = {"with_tbb": True}
+    # with_json: for those who include weft/IO/write_report_json_2.h or write_report_json_3.h; no other header needs it
+    options = {"with_tbb": [True, False], "with_json": [True, False]}
+    default_options = {"with_tbb": True, "with_json": False}
     no_copy_source = True
 
     @property
@@ -40,6 +41,8 @@ class WeftConan(ConanFile):
         self.requires("cgal/[>=5.5]", transitive_headers=True)
         if self.options.with_tbb:
             self.requires("onetbb/[>=2021.8]", transitive_headers=True)
+        if self.options.with_json:
+            self.requires("nlohmann_json/[>=3.11]", transitive_headers=True)
 
     def build_requirements(self):
         self.tool_requires("cmake/[>=3.25]")

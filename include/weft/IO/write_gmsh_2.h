@@ -8,6 +8,7 @@
 #define WEFT_IO_WRITE_GMSH_2_H
 
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/write_gmsh_3.h> // the overload for spatial meshes
@@ -42,7 +43,7 @@ struct Gmsh_entity
 using Gmsh_entities = std::array<std::map<int, Gmsh_entity>, 3>;
 
 /// Distributes the mesh over entities. A node belongs to the entity of lowest dimension that has it.
-inline Gmsh_entities gmsh_entities(const Indexed_mesh_2& mesh)
+WEFT_COLD inline Gmsh_entities gmsh_entities(const Indexed_mesh_2& mesh)
 {
   Gmsh_entities entities;
   std::vector<std::pair<int, int>> owner(mesh.points.size(), {3, 0}); // dimension and tag
@@ -74,7 +75,7 @@ inline Gmsh_entities gmsh_entities(const Indexed_mesh_2& mesh)
   return entities;
 }
 
-inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities& entities)
+WEFT_COLD inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities& entities)
 {
   out << "$Entities\n" << entities[0].size() << ' ' << entities[1].size() << ' ' << entities[2].size() << " 0\n";
   for (const auto& [tag, point] : entities[0]) out << tag << ' ' << point.lower[0] << ' ' << point.lower[1] << " 0 0\n";
@@ -91,7 +92,7 @@ inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities& entities)
   out << "$EndEntities\n";
 }
 
-inline void write_gmsh_nodes(Text_writer& out, const Indexed_mesh_2& mesh, const Gmsh_entities& entities)
+WEFT_COLD inline void write_gmsh_nodes(Text_writer& out, const Indexed_mesh_2& mesh, const Gmsh_entities& entities)
 {
   std::size_t blocks = 0;
   for (const auto& of_dimension : entities)
@@ -107,7 +108,7 @@ inline void write_gmsh_nodes(Text_writer& out, const Indexed_mesh_2& mesh, const
   out << "$EndNodes\n";
 }
 
-inline void write_gmsh_elements(Text_writer& out, const Indexed_mesh_2& mesh, const Gmsh_entities& entities)
+WEFT_COLD inline void write_gmsh_elements(Text_writer& out, const Indexed_mesh_2& mesh, const Gmsh_entities& entities)
 {
   const std::size_t n = mesh.edges.size() + mesh.triangles.size();
   std::size_t number = 0;
@@ -139,7 +140,8 @@ namespace IO {
 /// \param tags as returned by `insert_pslg()`.
 /// \throws File_error if the file can't be written.
 template <class Cdt>
-void write_gmsh(const std::string& filename, const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags = {})
+WEFT_COLD void write_gmsh(const std::string& filename, const Cdt& cdt,
+                          const Mesh_tags_2<typename Cdt::Geom_traits>& tags = {})
 {
   const internal::Indexed_mesh_2 mesh = internal::indexed_mesh(cdt, tags);
   const internal::Gmsh_entities entities = internal::gmsh_entities(mesh);

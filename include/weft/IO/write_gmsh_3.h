@@ -9,6 +9,7 @@
 
 #include <weft/internal/as_index.h>
 #include <weft/internal/boxes/coordinates_3.h>
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
@@ -61,7 +62,7 @@ void add_gmsh_elements(Gmsh_entities_3& entities, const Tetrahedral_mesh_3<K>& m
 
 /// Says which creases bound which patches, and which feature vertices which creases.
 template <class K>
-void bound_gmsh_entities(Gmsh_entities_3& entities, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void bound_gmsh_entities(Gmsh_entities_3& entities, const Tetrahedral_mesh_3<K>& mesh)
 {
   std::map<std::array<std::size_t, 2>, int> crease_of;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
@@ -88,7 +89,7 @@ void bound_gmsh_entities(Gmsh_entities_3& entities, const Tetrahedral_mesh_3<K>&
 
 /// Distributes the mesh over entities. A vertex is a node of the entity it lies on.
 template <class K>
-Gmsh_entities_3 gmsh_entities(const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD Gmsh_entities_3 gmsh_entities(const Tetrahedral_mesh_3<K>& mesh)
 {
   Gmsh_entities_3 entities;
   add_gmsh_elements(entities, mesh, 1, mesh.edges, mesh.creases, 1);
@@ -105,7 +106,7 @@ Gmsh_entities_3 gmsh_entities(const Tetrahedral_mesh_3<K>& mesh)
   return entities;
 }
 
-inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities_3& entities)
+WEFT_COLD inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities_3& entities)
 {
   out << "$Entities\n"
       << entities[0].size() << ' ' << entities[1].size() << ' ' << entities[2].size() << ' ' << entities[3].size()
@@ -127,7 +128,7 @@ inline void write_gmsh_entities(Text_writer& out, const Gmsh_entities_3& entitie
 }
 
 template <class K>
-void write_gmsh_nodes(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const Gmsh_entities_3& entities)
+WEFT_COLD void write_gmsh_nodes(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const Gmsh_entities_3& entities)
 {
   std::size_t blocks = 0;
   for (const auto& of_dimension : entities)
@@ -148,8 +149,8 @@ void write_gmsh_nodes(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const
 
 /// Writes the blocks of elements of one dimension. `vertices(i)` are those of element i.
 template <class Vertices>
-void write_gmsh_blocks(Text_writer& out, const Gmsh_entities_3& entities, int dimension, int type, std::size_t& number,
-                       const Vertices& vertices)
+WEFT_COLD void write_gmsh_blocks(Text_writer& out, const Gmsh_entities_3& entities, int dimension, int type,
+                                 std::size_t& number, const Vertices& vertices)
 {
   for (const auto& [tag, entity] : entities[as_index(dimension)]) {
     if (entity.elements.empty()) continue;
@@ -163,7 +164,7 @@ void write_gmsh_blocks(Text_writer& out, const Gmsh_entities_3& entities, int di
 }
 
 template <class K>
-void write_gmsh_elements(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const Gmsh_entities_3& entities)
+WEFT_COLD void write_gmsh_elements(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const Gmsh_entities_3& entities)
 {
   const std::size_t n = mesh.corners.size() + mesh.edges.size() + mesh.facets.size() + mesh.cells.size();
   std::size_t blocks = 0, number = 0;
@@ -186,7 +187,7 @@ namespace IO {
 /// volumes. Facets are counterclockwise seen from outside, cells positively oriented.
 /// \throws File_error if the file can't be written.
 template <class K>
-void write_gmsh(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_gmsh(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
 {
   const internal::Gmsh_entities_3 entities = internal::gmsh_entities(mesh);
   internal::Text_writer out(filename);

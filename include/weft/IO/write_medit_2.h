@@ -7,6 +7,7 @@
 #ifndef WEFT_IO_WRITE_MEDIT_2_H
 #define WEFT_IO_WRITE_MEDIT_2_H
 
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/write_medit_3.h> // the overload for spatial meshes
@@ -21,7 +22,8 @@ namespace IO {
 ///   counted from 1 where the input has no marks, 0 if unknown), that of a triangle the mark of its region.
 /// \throws File_error if the file can't be written.
 template <class Cdt>
-void write_medit(const std::string& filename, const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags = {})
+WEFT_COLD void write_medit(const std::string& filename, const Cdt& cdt,
+                           const Mesh_tags_2<typename Cdt::Geom_traits>& tags = {})
 {
   const internal::Indexed_mesh_2 mesh = internal::indexed_mesh(cdt, tags);
   internal::Text_writer out(filename);

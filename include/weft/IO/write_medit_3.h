@@ -9,6 +9,7 @@
 #define WEFT_IO_WRITE_MEDIT_3_H
 
 #include <weft/internal/boxes/coordinates_3.h>
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
@@ -22,8 +23,9 @@ namespace internal {
 
 /// A section of elements, each a list of vertices and its reference.
 template <std::size_t N>
-void write_medit_section(Text_writer& out, const char* name, const std::vector<std::array<std::size_t, N>>& elements,
-                         const std::vector<int>& tags, int first)
+WEFT_COLD void write_medit_section(Text_writer& out, const char* name,
+                                   const std::vector<std::array<std::size_t, N>>& elements,
+                                   const std::vector<int>& tags, int first)
 {
   out << '\n' << name << '\n' << elements.size() << '\n';
   for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -33,7 +35,7 @@ void write_medit_section(Text_writer& out, const char* name, const std::vector<s
 }
 
 /// A section that is a list of numbers counted from 1; left out when there are none.
-inline void write_medit_list(Text_writer& out, const char* name, const std::vector<std::size_t>& numbers)
+WEFT_COLD inline void write_medit_list(Text_writer& out, const char* name, const std::vector<std::size_t>& numbers)
 {
   if (numbers.empty()) return;
   out << '\n' << name << '\n' << numbers.size() << '\n';
@@ -49,7 +51,7 @@ namespace IO {
 /// are counterclockwise seen from outside, cells positively oriented. All coordinates can be read back exactly.
 /// \throws File_error if the file can't be written.
 template <class K>
-void write_medit(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_medit(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
 {
   internal::Text_writer out(filename);
   out << "MeshVersionFormatted 2\nDimension 3\n\nVertices\n" << mesh.points.size() << '\n';

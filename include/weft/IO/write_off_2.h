@@ -5,6 +5,7 @@
 #ifndef WEFT_IO_WRITE_OFF_2_H
 #define WEFT_IO_WRITE_OFF_2_H
 
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/write_off_3.h> // the overload for spatial meshes
@@ -17,7 +18,7 @@ namespace IO {
 /// Writes the faces in the domain as an OFF file.
 /// \throws File_error if the file can't be written.
 template <class Cdt>
-void write_off(const std::string& filename, const Cdt& cdt)
+WEFT_COLD void write_off(const std::string& filename, const Cdt& cdt)
 {
   const internal::Indexed_mesh_2 mesh = internal::indexed_mesh(cdt, {});
   internal::Text_writer out(filename);

@@ -5,6 +5,7 @@
 #ifndef WEFT_IO_WRITE_OFF_3_H
 #define WEFT_IO_WRITE_OFF_3_H
 
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Boundary_3.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
@@ -17,7 +18,7 @@ namespace IO {
 /// Writes the boundary facets, counterclockwise seen from outside, and their vertices as an OFF file.
 /// \throws File_error if the file can't be written.
 template <class K>
-void write_off(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_off(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
 {
   const internal::Boundary_3 boundary = internal::boundary_of(mesh);
   internal::Text_writer out(filename);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Writes what the spatial mesher did and how good the mesh is as JSON, in the manner of write_report_json_2.h.
+// Writes what the spatial mesher did and how good the mesh is as JSON, in the manner of write_report_json_2.h, and by
+// the same library.
 
 #ifndef WEFT_IO_WRITE_REPORT_JSON_3_H
 #define WEFT_IO_WRITE_REPORT_JSON_3_H
@@ -10,101 +11,123 @@
 #include <weft/spatial/local/Improve_options_3.h>
 #include <weft/spatial/mesh/quality_3.h>
 
+#include <cstddef>
 #include <ostream>
 #include <string>
-#include <string_view>
 
 namespace weft {
 namespace internal {
 
-inline void append_json(Json_text& json, std::string_view name, const Unsatisfied_3& u)
+inline Json to_json(const Unsatisfied_3& u)
 {
-  json.begin_object(name).member("elements", u.elements).member("at_floor", u.at_floor);
-  json.member("at_acute_edge", u.at_acute_edge);
-  json.member("size", u.size).member("approximation", u.approximation).member("shape", u.shape);
-  json.member("topology", u.topology).member("disk", u.disk).member("demand", u.demand).end();
+  return {{"elements", u.elements},
+          {"at_floor", u.at_floor},
+          {"at_acute_edge", u.at_acute_edge},
+          {"size", u.size},
+          {"approximation", u.approximation},
+          {"shape", u.shape},
+          {"topology", u.topology},
+          {"disk", u.disk},
+          {"demand", u.demand}};
 }
 
-inline void append_json(Json_text& json, const Mesh_report_3& r)
+inline Json to_json(const Mesh_report_3& r)
 {
-  json.member("ok", r.ok()).member("stop_reason", name(r.stop_reason)).member("manifold", r.manifold);
-  json.member("vertices", r.vertices).member("corner_vertices", r.corner_vertices);
-  json.member("crease_vertices", r.crease_vertices).member("patch_vertices", r.patch_vertices);
-  json.member("interior_vertices", r.interior_vertices);
-  json.member("cells", r.cells).member("facets", r.facets).member("crease_edges", r.crease_edges);
-  json.member("smallest_dihedral", r.smallest_dihedral).member("largest_dihedral", r.largest_dihedral);
-  json.member("largest_facet_shape", r.largest_facet_shape).member("largest_cell_shape", r.largest_cell_shape);
-  json.member("refined_smallest_dihedral", r.refined_smallest_dihedral);
-  json.member("smoothed_smallest_dihedral", r.smoothed_smallest_dihedral);
-  json.member("creases_given_up", r.creases_given_up);
-  json.member("coarsened", r.coarsened).member("smoothing_sweeps", r.smoothing_sweeps);
-  json.member("smoothing_moves", r.smoothing_moves).member("smoothing_locked", r.smoothing_locked);
-  json.member("smoothing_rejected", r.smoothing_rejected).member("moved_in_place", r.moved_in_place);
-  json.member("moved_one_by_one", r.moved_one_by_one).member("moved_by_rebuilding", r.moved_by_rebuilding);
-  json.member("perturbed", r.perturbed).member("perturb_insertions", r.perturb_insertions);
-  append_json(json, "bad_edges", r.bad_edges);
-  append_json(json, "bad_facets", r.bad_facets);
-  append_json(json, "bad_cells", r.bad_cells);
-  json.member("bad_vertices", r.bad_vertices).member("bare_patches", r.bare_patches);
-  json.member("batches", r.batches).member("candidates", r.candidates).member("encroachments", r.encroachments);
-  json.member("segment_queries", r.segment_queries).member("location_queries", r.location_queries);
-  json.member("skipped_queries", r.skipped_queries);
-  json.begin_array("stages");
-  for (const auto& [stage, seconds] : r.stage_seconds)
-    json.begin_object().member("name", stage).member("seconds", seconds).end();
-  json.end();
+  return {{"ok", r.ok()},
+          {"stop_reason", name(r.stop_reason)},
+          {"manifold", r.manifold},
+          {"vertices", r.vertices},
+          {"corner_vertices", r.corner_vertices},
+          {"crease_vertices", r.crease_vertices},
+          {"patch_vertices", r.patch_vertices},
+          {"interior_vertices", r.interior_vertices},
+          {"cells", r.cells},
+          {"facets", r.facets},
+          {"crease_edges", r.crease_edges},
+          {"smallest_dihedral", r.smallest_dihedral},
+          {"largest_dihedral", r.largest_dihedral},
+          {"largest_facet_shape", r.largest_facet_shape},
+          {"largest_cell_shape", r.largest_cell_shape},
+          {"refined_smallest_dihedral", r.refined_smallest_dihedral},
+          {"smoothed_smallest_dihedral", r.smoothed_smallest_dihedral},
+          {"creases_given_up", r.creases_given_up},
+          {"coarsened", r.coarsened},
+          {"smoothing_sweeps", r.smoothing_sweeps},
+          {"smoothing_moves", r.smoothing_moves},
+          {"smoothing_locked", r.smoothing_locked},
+          {"smoothing_rejected", r.smoothing_rejected},
+          {"moved_in_place", r.moved_in_place},
+          {"moved_one_by_one", r.moved_one_by_one},
+          {"moved_by_rebuilding", r.moved_by_rebuilding},
+          {"perturbed", r.perturbed},
+          {"perturb_insertions", r.perturb_insertions},
+          {"bad_edges", to_json(r.bad_edges)},
+          {"bad_facets", to_json(r.bad_facets)},
+          {"bad_cells", to_json(r.bad_cells)},
+          {"bad_vertices", r.bad_vertices},
+          {"bare_patches", r.bare_patches},
+          {"batches", r.batches},
+          {"candidates", r.candidates},
+          {"encroachments", r.encroachments},
+          {"segment_queries", r.segment_queries},
+          {"location_queries", r.location_queries},
+          {"skipped_queries", r.skipped_queries},
+          {"stages", stages_json(r.stage_seconds)}};
 }
 
-inline void append_json(Json_text& json, std::string_view name, const Angle_extreme_3& angle, std::string_view element)
+/// \param element what the extreme is at: "cell" or "facet".
+inline Json to_json(const Angle_extreme_3& angle, const char* element)
 {
-  json.begin_object(name).member("degrees", angle.degrees).member(element, angle.element);
-  json.numbers("vertices", angle.vertices).end();
+  return {{"degrees", angle.degrees}, {element, angle.element}, {"vertices", angle.vertices}};
 }
 
-inline void append_json(Json_text& json, const Quality_3& q, std::string_view name = "quality")
+inline Json to_json(const Quality_3& q)
 {
-  json.begin_object(name);
-  json.member("cells", q.cells).member("vertices", q.vertices).member("facets", q.facets);
-  json.member("volume", q.volume).member("boundary_area", q.boundary_area);
-  append_json(json, "smallest_dihedral", q.smallest_dihedral, "cell");
-  append_json(json, "largest_dihedral", q.largest_dihedral, "cell");
-  json.member("mean_smallest_dihedral", q.mean_smallest_dihedral);
-  json.begin_object("cells_below");
-  for (const std::size_t degrees : {5u, 10u, 15u, 20u}) json.member(std::to_string(degrees), q.cells_below(degrees));
-  json.end();
-  json.member("largest_radius_edge_ratio", q.largest_radius_edge_ratio);
-  json.member("mean_radius_edge_ratio", q.mean_radius_edge_ratio);
-  json.member("smallest_radius_ratio", q.smallest_radius_ratio).member("mean_radius_ratio", q.mean_radius_ratio);
-  json.member("shortest_edge", q.shortest_edge).member("longest_edge", q.longest_edge);
-  append_json(json, "smallest_facet_angle", q.smallest_facet_angle, "facet");
-  append_json(json, "largest_facet_angle", q.largest_facet_angle, "facet");
-  json.member("largest_facet_ratio", q.largest_facet_ratio);
-  json.begin_object("dihedral_histogram").member("bin_degrees", 180 / Quality_3::bins);
-  json.numbers("counts", q.dihedrals).end();
-  json.end();
+  Json below = Json::object();
+  for (const std::size_t degrees : {5u, 10u, 15u, 20u}) below[std::to_string(degrees)] = q.cells_below(degrees);
+  return {{"cells", q.cells},
+          {"vertices", q.vertices},
+          {"facets", q.facets},
+          {"volume", q.volume},
+          {"boundary_area", q.boundary_area},
+          {"smallest_dihedral", to_json(q.smallest_dihedral, "cell")},
+          {"largest_dihedral", to_json(q.largest_dihedral, "cell")},
+          {"mean_smallest_dihedral", q.mean_smallest_dihedral},
+          {"cells_below", below},
+          {"largest_radius_edge_ratio", q.largest_radius_edge_ratio},
+          {"mean_radius_edge_ratio", q.mean_radius_edge_ratio},
+          {"smallest_radius_ratio", q.smallest_radius_ratio},
+          {"mean_radius_ratio", q.mean_radius_ratio},
+          {"shortest_edge", q.shortest_edge},
+          {"longest_edge", q.longest_edge},
+          {"smallest_facet_angle", to_json(q.smallest_facet_angle, "facet")},
+          {"largest_facet_angle", to_json(q.largest_facet_angle, "facet")},
+          {"largest_facet_ratio", q.largest_facet_ratio},
+          {"dihedral_histogram", {{"bin_degrees", 180 / Quality_3::bins}, {"counts", q.dihedrals}}}};
 }
 
 inline std::string report_json(const Improve_report_3& r)
 {
-  Json_text json;
-  json.begin_object().member("ok", r.ok()).member("stop_reason", name(r.stop_reason)).member("manifold", r.manifold);
-  json.member("inverted_before", r.inverted_before).member("inverted_after", r.inverted_after);
-  json.member("unrepresented", r.unrepresented).member("boundary_bound", r.boundary_bound);
-  json.member("moves", r.moves).member("insertions", r.insertions).member("removals", r.removals);
-  json.member("flips", r.flips);
-  append_course(json, r);
-  json.end();
-  return json.text() + "\n";
+  Json json = {{"ok", r.ok()},
+               {"stop_reason", name(r.stop_reason)},
+               {"manifold", r.manifold},
+               {"inverted_before", r.inverted_before},
+               {"inverted_after", r.inverted_after},
+               {"unrepresented", r.unrepresented},
+               {"boundary_bound", r.boundary_bound},
+               {"moves", r.moves},
+               {"insertions", r.insertions},
+               {"removals", r.removals},
+               {"flips", r.flips}};
+  add_course(json, r, to_json(r.before), to_json(r.after));
+  return json_text(json);
 }
 
 inline std::string report_json(const Mesh_report_3& report, const Quality_3& quality)
 {
-  Json_text json;
-  json.begin_object();
-  append_json(json, report);
-  append_json(json, quality);
-  json.end();
-  return json.text() + "\n";
+  Json json = to_json(report);
+  json["quality"] = to_json(quality);
+  return json_text(json);
 }
 
 } // namespace internal

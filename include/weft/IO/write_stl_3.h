@@ -7,6 +7,7 @@
 #ifndef WEFT_IO_WRITE_STL_3_H
 #define WEFT_IO_WRITE_STL_3_H
 
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Boundary_3.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
@@ -52,7 +53,7 @@ namespace IO {
 /// Writes the boundary facets as a binary STL file, counterclockwise seen from outside.
 /// \throws File_error if the file can't be written.
 template <class K>
-void write_stl(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_stl(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
 {
   const internal::Boundary_3 boundary = internal::boundary_of(mesh);
   if (boundary.triangles.size() > std::numeric_limits<std::uint32_t>::max())

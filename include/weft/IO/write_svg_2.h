@@ -6,6 +6,7 @@
 #ifndef WEFT_IO_WRITE_SVG_2_H
 #define WEFT_IO_WRITE_SVG_2_H
 
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Svg_canvas.h>
 #include <weft/IO/write_angle_histogram_svg.h>
@@ -55,7 +56,8 @@ inline double thin_stroke(const Svg_frame& frame, std::size_t n)
 }
 
 /// Colour bar from 0 to 60 degrees with a caption.
-inline void draw_angle_legend(Svg_canvas& canvas, double left, double top, double width, const std::string& caption)
+WEFT_COLD inline void draw_angle_legend(Svg_canvas& canvas, double left, double top, double width,
+                                        const std::string& caption)
 {
   constexpr int steps = 120;
   for (int i = 0; i < steps; ++i) // half a unit of overlap hides seams
@@ -70,7 +72,8 @@ inline void draw_angle_legend(Svg_canvas& canvas, double left, double top, doubl
 }
 
 /// Triangles, one path per colour: far smaller files than one element each.
-inline void draw_triangles(Svg_canvas& canvas, const Svg_frame& frame, const Indexed_mesh_2& mesh, double stroke)
+WEFT_COLD inline void draw_triangles(Svg_canvas& canvas, const Svg_frame& frame, const Indexed_mesh_2& mesh,
+                                     double stroke)
 {
   constexpr int shades = 120;
   std::map<int, std::vector<std::size_t>> of_shade;
@@ -93,7 +96,7 @@ inline void draw_triangles(Svg_canvas& canvas, const Svg_frame& frame, const Ind
 }
 
 /// One line about the mesh for below the picture.
-inline std::string mesh_caption(const Indexed_mesh_2& mesh)
+WEFT_COLD inline std::string mesh_caption(const Indexed_mesh_2& mesh)
 {
   double smallest = 180, largest = 0;
   for (const auto& triangle : mesh.triangles)
@@ -119,7 +122,7 @@ inline std::string cell_colour(std::size_t sides)
   }
 }
 
-inline void draw_cell_legend(Svg_canvas& canvas, double left, double top)
+WEFT_COLD inline void draw_cell_legend(Svg_canvas& canvas, double left, double top)
 {
   const std::array<const char*, 5> labels = {"≤ 4 sides", "5", "6", "7", "≥ 8"};
   double x = left;
@@ -151,7 +154,7 @@ Angle_histogram angle_histogram(const Cdt& cdt, const std::string& name = "mesh"
 /// \param title printed above the mesh if not empty.
 /// \throws File_error if the file can't be written.
 template <class Cdt>
-void write_svg(const std::string& filename, const Cdt& cdt, const std::string& title = "")
+WEFT_COLD void write_svg(const std::string& filename, const Cdt& cdt, const std::string& title = "")
 {
   const internal::Indexed_mesh_2 mesh = internal::indexed_mesh(cdt, {});
   internal::Svg_frame frame = internal::frame_of(mesh.points);
@@ -183,9 +186,10 @@ void write_svg(const std::string& filename, const Cdt& cdt, const std::string& t
 /// \param constraints drawn as heavy lines; may be empty.
 /// \throws File_error if the file can't be written.
 template <class Point>
-void write_voronoi_svg(const std::string& filename, const std::vector<std::vector<Point>>& cells,
-                       const std::vector<Point>& sites = {}, const std::vector<std::array<Point, 2>>& constraints = {},
-                       const std::string& title = "")
+WEFT_COLD void write_voronoi_svg(const std::string& filename, const std::vector<std::vector<Point>>& cells,
+                                 const std::vector<Point>& sites = {},
+                                 const std::vector<std::array<Point, 2>>& constraints = {},
+                                 const std::string& title = "")
 {
   internal::Svg_frame frame;
   const auto x = [&frame](const Point& p) { return frame.x(CGAL::to_double(p.x())); };

@@ -8,6 +8,7 @@
 #ifndef WEFT_IO_WRITE_VTU_2_H
 #define WEFT_IO_WRITE_VTU_2_H
 
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Indexed_mesh_2.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/internal/vtu_array.h>
@@ -19,7 +20,7 @@
 namespace weft {
 namespace internal {
 
-inline void write_vtu_cells(Text_writer& out, const Indexed_mesh_2& mesh)
+WEFT_COLD inline void write_vtu_cells(Text_writer& out, const Indexed_mesh_2& mesh)
 {
   out << "      <Cells>\n";
   begin_vtu_array(out, "Int64", "connectivity");
@@ -40,8 +41,8 @@ inline void write_vtu_cells(Text_writer& out, const Indexed_mesh_2& mesh)
 
 /// One number per cell: triangles first, then lines.
 template <class Of_triangle, class Of_edge>
-void write_vtu_cell_data(Text_writer& out, const Indexed_mesh_2& mesh, const std::string& name,
-                         const Of_triangle& of_triangle, const Of_edge& of_edge)
+WEFT_COLD void write_vtu_cell_data(Text_writer& out, const Indexed_mesh_2& mesh, const std::string& name,
+                                   const Of_triangle& of_triangle, const Of_edge& of_edge)
 {
   begin_vtu_array(out, "Int32", name);
   for (const auto& triangle : mesh.triangles) out << of_triangle(triangle) << '\n';
@@ -57,7 +58,8 @@ namespace IO {
 /// \param tags as returned by `insert_pslg()`.
 /// \throws File_error if the file can't be written.
 template <class Cdt>
-void write_vtu(const std::string& filename, const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags = {})
+WEFT_COLD void write_vtu(const std::string& filename, const Cdt& cdt,
+                         const Mesh_tags_2<typename Cdt::Geom_traits>& tags = {})
 {
   using internal::Indexed_mesh_2;
   const Indexed_mesh_2 mesh = internal::indexed_mesh(cdt, tags);

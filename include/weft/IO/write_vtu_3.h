@@ -9,6 +9,7 @@
 #define WEFT_IO_WRITE_VTU_3_H
 
 #include <weft/internal/boxes/coordinates_3.h>
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/internal/vtu_array.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
@@ -22,7 +23,7 @@ namespace weft {
 namespace internal {
 
 template <class K>
-void write_vtu_points(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_vtu_points(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh)
 {
   out << "      <Points>\n        <DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" "
          "format=\"ascii\">\n";
@@ -52,7 +53,7 @@ void for_each_vtu_kind(const Tetrahedral_mesh_3<K>& mesh, const Write& write)
 }
 
 template <class Elements>
-void write_vtu_connectivity(Text_writer& out, const Elements& elements)
+WEFT_COLD void write_vtu_connectivity(Text_writer& out, const Elements& elements)
 {
   for (const auto& element : elements) {
     const char* separator = "";
@@ -65,7 +66,7 @@ void write_vtu_connectivity(Text_writer& out, const Elements& elements)
 }
 
 template <class K>
-void write_vtu_cells(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_vtu_cells(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh)
 {
   out << "      <Cells>\n";
   begin_vtu_array(out, "Int64", "connectivity");
@@ -90,8 +91,8 @@ void write_vtu_cells(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh)
 
 /// One number per element: `tags` for the elements of one kind, which have so many vertices, `other` for the rest.
 template <class K, class Tags>
-void write_vtu_tags(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const std::string& name,
-                    std::size_t tagged_vertices, const Tags& tags, int other)
+WEFT_COLD void write_vtu_tags(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const std::string& name,
+                              std::size_t tagged_vertices, const Tags& tags, int other)
 {
   begin_vtu_array(out, "Int32", name);
   for_each_vtu_kind(mesh, [&](std::size_t vertices, int, std::size_t count) {
@@ -107,7 +108,7 @@ namespace IO {
 /// Writes a mesh as a .vtu file. Facets are counterclockwise seen from outside.
 /// \throws File_error if the file can't be written.
 template <class K>
-void write_vtu(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_vtu(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
 {
   internal::Text_writer out(filename);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"

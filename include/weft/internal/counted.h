@@ -5,13 +5,15 @@
 #ifndef WEFT_INTERNAL_COUNTED_H
 #define WEFT_INTERNAL_COUNTED_H
 
+#include <weft/internal/cold.h>
+
 #include <cstddef>
 #include <string>
 
 namespace weft::internal {
 
 /// "1 triangle", "2 triangles".
-inline std::string counted(std::size_t n, const std::string& one, const std::string& many)
+WEFT_COLD inline std::string counted(std::size_t n, const std::string& one, const std::string& many)
 {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }

@@ -6,6 +6,8 @@
 #ifndef WEFT_INTERNAL_PARALLEL_FOR_H
 #define WEFT_INTERNAL_PARALLEL_FOR_H
 
+#include <weft/internal/cold.h>
+
 #include <cstddef>
 
 #ifdef WEFT_LINKED_WITH_TBB
@@ -16,26 +18,37 @@
 
 namespace weft::internal {
 
+#ifdef WEFT_LINKED_WITH_TBB
+/// Calls `run(body, first, last)` for parts of [0, n) of about `grain`. Not a template: oneTBB takes long to compile.
+WEFT_NOINLINE inline void run_parts(std::size_t n, int threads, std::size_t grain,
+                                    void (*run)(const void*, std::size_t, std::size_t), const void* body)
+{
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
+                      [&](const auto& range) { run(body, range.begin(), range.end()); });
+  });
+}
+#endif
+
 /// Calls `body(i)` for i in [0, n), on at most `threads` threads.
 /// \param grain the fewest of them that a thread takes at once.
 template <class Body>
 void parallel_for(std::size_t n, int threads, const Body& body, std::size_t grain = 512)
 {
 #ifdef WEFT_LINKED_WITH_TBB
-  if (threads > 1 && n > 2 * grain) {
-    tbb::task_arena arena(threads);
-    arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-      });
-    });
-    return;
-  }
+  const auto run = [](const void* of, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i != last; ++i) (*static_cast<const Body*>(of))(i);
+  };
+  if (threads > 1 && n > 2 * grain)
+    run_parts(n, threads, grain, run, &body);
+  else
+    run(&body, 0, n);
 #else
   static_cast<void>(threads);
   static_cast<void>(grain);
-#endif
   for (std::size_t i = 0; i < n; ++i) body(i);
+#endif
 }
 
 } // namespace weft::internal

@@ -7,6 +7,7 @@
 #define WEFT_IO_INTERNAL_INDEXED_MESH_2_H
 
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/graph/Constraint_markers.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/mesh/Scaled_triangle_2.h>
@@ -68,8 +69,9 @@ std::vector<int> domain_components(const Cdt& cdt, const Face_components<Cdt>& c
 }
 
 template <class Cdt>
-void take_triangles(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags,
-                    CGAL::Unique_hash_map<typename Cdt::Vertex_handle, std::size_t>& index, Indexed_mesh_2& mesh)
+WEFT_COLD void take_triangles(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags,
+                              CGAL::Unique_hash_map<typename Cdt::Vertex_handle, std::size_t>& index,
+                              Indexed_mesh_2& mesh)
 {
   const auto components = face_components(cdt);
   const std::vector<int> number = domain_components(cdt, components, mesh.number_of_components);
@@ -85,8 +87,8 @@ void take_triangles(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>
 }
 
 template <class Cdt>
-void take_vertices(const Cdt& cdt, CGAL::Unique_hash_map<typename Cdt::Vertex_handle, std::size_t>& index,
-                   Indexed_mesh_2& mesh)
+WEFT_COLD void take_vertices(const Cdt& cdt, CGAL::Unique_hash_map<typename Cdt::Vertex_handle, std::size_t>& index,
+                             Indexed_mesh_2& mesh)
 {
   CGAL::Unique_hash_map<typename Cdt::Vertex_handle, bool> used(false);
   for (const auto face : cdt.finite_face_handles())
@@ -102,7 +104,7 @@ void take_vertices(const Cdt& cdt, CGAL::Unique_hash_map<typename Cdt::Vertex_ha
 
 /// The mesh of the faces in the domain. Linear time, with a logarithm in the number of input segments for the edges.
 template <class Cdt>
-Indexed_mesh_2 indexed_mesh(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags)
+WEFT_COLD Indexed_mesh_2 indexed_mesh(const Cdt& cdt, const Mesh_tags_2<typename Cdt::Geom_traits>& tags)
 {
   Indexed_mesh_2 mesh;
   mesh.has_region_markers = !tags.regions.empty();
@@ -135,7 +137,7 @@ inline std::vector<int> distinct_tags(std::vector<int> tags)
 /// A mesh in arrays, which knows its tags by itself. Edges of one tag are one segment, triangles of one tag one
 /// component.
 template <class K>
-Indexed_mesh_2 indexed_mesh(const Triangle_mesh_2<K>& mesh, const Mesh_tags_2<K>&)
+WEFT_COLD Indexed_mesh_2 indexed_mesh(const Triangle_mesh_2<K>& mesh, const Mesh_tags_2<K>&)
 {
   Indexed_mesh_2 result;
   const std::vector<int> regions = distinct_tags(mesh.regions), tags = distinct_tags(mesh.edge_tags);

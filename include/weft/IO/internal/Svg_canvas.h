@@ -6,6 +6,7 @@
 #ifndef WEFT_IO_INTERNAL_SVG_CANVAS_H
 #define WEFT_IO_INTERNAL_SVG_CANVAS_H
 
+#include <weft/internal/cold.h>
 #include <weft/IO/internal/Text_writer.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 namespace weft::internal {
 
 /// Colour for a value in [0, 1]: dark red, orange, pale yellow, light blue, blue.
-inline std::string colour(double value)
+WEFT_COLD inline std::string colour(double value)
 {
   static constexpr std::array<std::array<double, 3>, 6> stops = {
       {{150, 10, 38}, {222, 80, 50}, {253, 174, 97}, {254, 240, 176}, {158, 205, 226}, {49, 104, 168}}};
@@ -34,7 +35,7 @@ inline std::string colour(double value)
 }
 
 /// Text with the characters that XML reserves replaced.
-inline std::string xml_escaped(const std::string& text)
+WEFT_COLD inline std::string xml_escaped(const std::string& text)
 {
   std::string result;
   for (const char c : text) {
@@ -53,7 +54,7 @@ inline std::string xml_escaped(const std::string& text)
 }
 
 /// Number with one decimal for labels, with a dot in every locale.
-inline std::string one_decimal(double value)
+WEFT_COLD inline std::string one_decimal(double value)
 {
   char digits[400];
   const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, 1).ptr;
@@ -104,13 +105,13 @@ public:
   }
 
   /// Begins a path with the given attributes; follow with `move_to`, `line_to`, `close_loop`, then `end_path`.
-  void begin_path(const std::string& attributes) { out_ << "<path " << attributes << " d=\""; }
+  WEFT_COLD void begin_path(const std::string& attributes) { out_ << "<path " << attributes << " d=\""; }
   void move_to(double x, double y) { point('M', x, y); }
   void line_to(double x, double y) { point('L', x, y); }
   void close_loop() { out_ << "Z"; }
   void end_path() { out_ << "\"/>\n"; }
 
-  void line(double x1, double y1, double x2, double y2, const std::string& attributes)
+  WEFT_COLD void line(double x1, double y1, double x2, double y2, const std::string& attributes)
   {
     begin_path("fill=\"none\" " + attributes);
     move_to(x1, y1);
@@ -118,7 +119,7 @@ public:
     end_path();
   }
 
-  void rectangle(double x, double y, double width, double height, const std::string& attributes)
+  WEFT_COLD void rectangle(double x, double y, double width, double height, const std::string& attributes)
   {
     out_ << "<rect x=\"";
     number(x) << "\" y=\"";
@@ -136,7 +137,7 @@ public:
   }
 
   /// What follows is moved by (dx, dy), until `end_group`.
-  void begin_group(double dx, double dy)
+  WEFT_COLD void begin_group(double dx, double dy)
   {
     out_ << "<g transform=\"translate(";
     number(dx) << ' ';
@@ -145,8 +146,8 @@ public:
   void end_group() { out_ << "</g>\n"; }
 
   /// \param anchor start, middle or end.
-  void text(double x, double y, double size, const std::string& anchor, const std::string& text,
-            const std::string& attributes = "")
+  WEFT_COLD void text(double x, double y, double size, const std::string& anchor, const std::string& text,
+                      const std::string& attributes = "")
   {
     out_ << "<text x=\"";
     number(x) << "\" y=\"";
@@ -161,7 +162,7 @@ public:
     out_.close();
   }
 
-  static std::string stroke(const std::string& colour, double width)
+  WEFT_COLD static std::string stroke(const std::string& colour, double width)
   {
     return "stroke=\"" + colour + "\" stroke-width=\"" + decimals(width) +
            "\" stroke-linejoin=\"round\" stroke-linecap=\"round\"";

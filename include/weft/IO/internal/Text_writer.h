@@ -7,6 +7,7 @@
 #define WEFT_IO_INTERNAL_TEXT_WRITER_H
 
 #include <weft/errors.h>
+#include <weft/internal/cold.h>
 
 #include <charconv>
 #include <cstddef>
@@ -22,22 +23,22 @@ class Text_writer
 {
 public:
   /// \throws File_error if the file can't be opened for writing.
-  explicit Text_writer(const std::string& filename) : filename_(filename), out_(filename, std::ios::binary)
+  WEFT_COLD explicit Text_writer(const std::string& filename) : filename_(filename), out_(filename, std::ios::binary)
   {
     if (!out_) throw File_error(filename, 0, "can't be opened for writing");
   }
 
-  Text_writer& operator<<(std::string_view text)
+  WEFT_NOINLINE Text_writer& operator<<(std::string_view text)
   {
     buffer_ += text;
     if (buffer_.size() > flush_size) flush();
     return *this;
   }
 
-  Text_writer& operator<<(char c) { return *this << std::string_view(&c, 1); }
+  WEFT_NOINLINE Text_writer& operator<<(char c) { return *this << std::string_view(&c, 1); }
 
   template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
-  Text_writer& operator<<(Number value)
+  WEFT_NOINLINE Text_writer& operator<<(Number value)
   {
     char digits[40];
     const auto result = std::to_chars(digits, digits + sizeof digits, value);
@@ -45,7 +46,7 @@ public:
   }
 
   /// A number for pictures: `decimals` digits after the point.
-  Text_writer& fixed(double value, int decimals)
+  WEFT_NOINLINE Text_writer& fixed(double value, int decimals)
   {
     char digits[400]; // the largest double has 309 digits before the point
     const auto result = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, decimals);
@@ -53,7 +54,7 @@ public:
   }
 
   /// Call at the end. \throws File_error if anything could not be written, for instance because the disk is full.
-  void close()
+  WEFT_COLD void close()
   {
     flush();
     out_.close();

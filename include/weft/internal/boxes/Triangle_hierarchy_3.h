@@ -64,14 +64,21 @@ public:
   template <class Visit>
   bool visit_segment(const Point& p, const Point& q, const Visit& visit) const
   {
+    return visit_near_segment(p, q, [&](const Triangle& triangle) {
+      const Segment_and_triangle_3<K> pair(p, q, triangle);
+      return !pair.misses() && visit(pair);
+    });
+  }
+
+  /// Calls `visit(triangle)` for the triangles that floats don't rule out, until one call returns true.
+  template <class Visit>
+  bool visit_near_segment(const Point& p, const Point& q, const Visit& visit) const
+  {
     const Framed_segment_3 part = boxes_.clip(framed(p), framed(q));
     return boxes_.visit_segment(part, [&](std::uint32_t block) {
       for (unsigned bits = blocks_[block].segment_candidates(part.origin, part.direction), lane = 0; bits;
-           bits >>= 1, ++lane) {
-        if (!(bits & 1)) continue;
-        const Segment_and_triangle_3<K> pair(p, q, triangles_[4 * block + lane]);
-        if (!pair.misses() && visit(pair)) return true;
-      }
+           bits >>= 1, ++lane)
+        if ((bits & 1) && visit(triangles_[4 * block + lane])) return true;
       return false;
     });
   }

@@ -9,7 +9,7 @@
 #define WEFT_PLANAR_MESH_ASSEMBLE_MESH_2_H
 
 #include <weft/errors.h>
-#include <weft/internal/counted.h>
+#include <weft/internal/run/Mesh_assembler.h>
 #include <weft/planar/mesh/Element_soup_2.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -31,15 +31,22 @@ namespace internal {
 
 /// Builds the mesh; `assemble_mesh_2()` runs it.
 template <class K>
-class Mesh_assembler_2
+class Mesh_assembler_2 : private Mesh_assembler<Element_soup_2<K>, Imported_mesh_2<K>>
 {
+  using Base = Mesh_assembler<Element_soup_2<K>, Imported_mesh_2<K>>;
+  using Base::none;
+  using Base::note_dropped;
+  using Base::number_of;
+  using Base::result_;
+  using Base::soup_;
+
 public:
-  explicit Mesh_assembler_2(Element_soup_2<K> soup) : soup_(std::move(soup)) {}
+  explicit Mesh_assembler_2(Element_soup_2<K> soup) : Base(std::move(soup)) {}
 
   Imported_mesh_2<K> run()
   {
     check_indices();
-    check_triangles();
+    this->check_repetitions(soup_.triangles, "triangle", [](std::size_t) {});
     drop_isolated_points();
     check_places();
     list_sides();
@@ -48,13 +55,12 @@ public:
     mesh().regions = soup_.triangle_tags;
     mesh().regions.resize(mesh().triangles.size(), 0);
     take_edges();
-    take_corners();
+    Base::take_corners(std::vector<char>(mesh().points.size(), true), "of no triangle or listed again");
     return std::move(result_);
   }
 
 private:
   using Edge = std::array<std::size_t, 2>;
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   /// A side of a triangle, with its ends in order.
   struct Side
@@ -68,56 +74,12 @@ private:
 
   // ---- checks
 
-  std::string number_of(std::size_t v) const { return std::to_string(v + soup_.first_number); }
-
-  [[noreturn]] void refuse_triangle(std::size_t t, const std::string& what) const
-  {
-    const auto& v = soup_.triangles[t];
-    throw Domain_error("triangle " + std::to_string(t + soup_.first_number) + " (vertices " + number_of(v[0]) + " " +
-                           number_of(v[1]) + " " + number_of(v[2]) + ") " + what,
-                       {v.begin(), v.end()}, {t});
-  }
-
   void check_indices() const
   {
     if (soup_.triangles.empty()) throw Domain_error("there are no triangles", {}, {});
-    check_indices(soup_.triangles, soup_.triangle_tags, "triangle");
-    check_indices(soup_.edges, soup_.edge_tags, "edge");
-    for (const std::size_t v : soup_.corners)
-      if (v >= soup_.points.size())
-        throw Domain_error("there is no vertex " + number_of(v) + " to be a corner", {v}, {});
-  }
-
-  template <std::size_t N>
-  void check_indices(const std::vector<std::array<std::size_t, N>>& elements, const std::vector<int>& tags,
-                     const std::string& name) const
-  {
-    if (!tags.empty() && tags.size() != elements.size())
-      throw Domain_error("there are " + counted(elements.size(), name, name + "s") + " and " +
-                             counted(tags.size(), "tag", "tags") + " of them",
-                         {}, {});
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      for (const std::size_t v : elements[e])
-        if (v >= soup_.points.size())
-          throw Domain_error(name + " " + std::to_string(e + soup_.first_number) + " has the vertex " + number_of(v) +
-                                 ", which there isn't",
-                             {v}, {e});
-  }
-
-  void check_triangles() const
-  {
-    std::vector<std::pair<std::array<std::size_t, 3>, std::size_t>> keys;
-    for (std::size_t t = 0; t < soup_.triangles.size(); ++t) {
-      auto key = soup_.triangles[t];
-      std::sort(key.begin(), key.end());
-      if (std::adjacent_find(key.begin(), key.end()) != key.end()) refuse_triangle(t, "has a vertex twice");
-      keys.emplace_back(key, t);
-    }
-    std::sort(keys.begin(), keys.end());
-    for (std::size_t i = 1; i < keys.size(); ++i)
-      if (keys[i - 1].first == keys[i].first)
-        refuse_triangle(keys[i].second, "is there twice: it has the vertices of triangle " +
-                                            std::to_string(keys[i - 1].second + soup_.first_number));
+    Base::check_indices(soup_.triangles, soup_.triangle_tags, "triangle");
+    Base::check_indices(soup_.edges, soup_.edge_tags, "edge");
+    this->check_corner_indices();
   }
 
   /// Coordinates are finite, and no two vertices are at one place.
@@ -144,26 +106,14 @@ private:
 
   void drop_isolated_points()
   {
-    std::vector<std::size_t> place(soup_.points.size(), none);
-    for (const auto& t : soup_.triangles)
-      for (const std::size_t v : t) place[v] = 0;
-    for (std::size_t v = 0; v < place.size(); ++v) {
-      if (place[v] == none) continue;
-      place[v] = mesh().points.size();
-      mesh().points.push_back(soup_.points[v]);
-      result_.point_origin.push_back(v);
-    }
+    const std::vector<std::size_t> place = this->number_points(soup_.triangles, "triangle");
+    for (const std::size_t v : result_.point_origin) mesh().points.push_back(soup_.points[v]);
     mesh().triangles = soup_.triangles;
     for (auto& t : mesh().triangles)
       for (std::size_t& v : t) v = place[v];
     for (auto& e : soup_.edges)
       for (std::size_t& v : e) v = place[v];
     for (std::size_t& v : soup_.corners) v = place[v];
-    const std::size_t dropped = place.size() - mesh().points.size();
-    if (dropped == 0) return;
-    const auto first = static_cast<std::size_t>(std::find(place.begin(), place.end(), none) - place.begin());
-    result_.notes.push_back(counted(dropped, "vertex", "vertices") + " of no triangle left out, the first is " +
-                            number_of(first));
   }
 
   // ---- triangles
@@ -204,51 +154,25 @@ private:
   /// hangs together is positive. What is negative then is turned over in the plane, not just in the list.
   void orient_triangles()
   {
-    const std::size_t n = mesh().triangles.size();
-    std::vector<std::vector<std::pair<std::size_t, bool>>> neighbours(n); // and whether they agree as they are
+    auto& triangles = mesh().triangles;
+    const auto& points = mesh().points;
+    typename Base::Neighbours neighbours(triangles.size());
     for_each_edge([&](const Side* first, const Side* last) {
       if (last - first < 2) return;
       const bool agree = first[0].forward != first[1].forward;
       neighbours[first[0].triangle].emplace_back(first[1].triangle, agree);
       neighbours[first[1].triangle].emplace_back(first[0].triangle, agree);
     });
-    std::vector<signed char> sense(n, 0);
-    for (std::size_t seed = 0; seed < n; ++seed)
-      if (sense[seed] == 0) orient_part(seed, neighbours, sense);
+    const auto area = [&](std::size_t t) {
+      const auto& v = triangles[t];
+      return CGAL::to_double(CGAL::area(points[v[0]], points[v[1]], points[v[2]]));
+    };
+    const std::vector<signed char> sense =
+        this->orient(neighbours, "triangle", area, [&](std::size_t t) { std::swap(triangles[t][1], triangles[t][2]); });
     for (Side& side : sides_) side.forward = side.forward == (sense[side.triangle] > 0);
     for (const auto& t : mesh().triangles)
       result_.inverted_triangles +=
           CGAL::orientation(mesh().points[t[0]], mesh().points[t[1]], mesh().points[t[2]]) != CGAL::LEFT_TURN;
-  }
-
-  /// Afterwards `sense` says of each triangle of the part whether it was left as it was (1) or turned (-1).
-  void orient_part(std::size_t seed, const std::vector<std::vector<std::pair<std::size_t, bool>>>& neighbours,
-                   std::vector<signed char>& sense)
-  {
-    std::vector<std::size_t> part = {seed};
-    sense[seed] = 1;
-    double area = 0;
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      const std::size_t t = part[k];
-      const auto& v = mesh().triangles[t];
-      area += sense[t] * CGAL::to_double(CGAL::area(mesh().points[v[0]], mesh().points[v[1]], mesh().points[v[2]]));
-      for (const auto& [other, agree] : neighbours[t]) {
-        const auto wanted = static_cast<signed char>(agree ? sense[t] : -sense[t]);
-        if (sense[other] == 0) {
-          sense[other] = wanted;
-          part.push_back(other);
-        } else if (sense[other] != wanted) {
-          throw Domain_error("the triangles can't be oriented alike: triangles " +
-                                 std::to_string(t + soup_.first_number) + " and " +
-                                 std::to_string(other + soup_.first_number) + " contradict each other",
-                             {}, {t, other});
-        }
-      }
-    }
-    for (const std::size_t t : part) {
-      if (area < 0) sense[t] = static_cast<signed char>(-sense[t]);
-      if (sense[t] < 0) std::swap(mesh().triangles[t][1], mesh().triangles[t][2]);
-    }
   }
 
   // ---- edges and corners
@@ -291,29 +215,6 @@ private:
     note_dropped(dropped, "edge", "that no triangle has");
   }
 
-  void note_dropped(std::size_t n, const std::string& name, const std::string& why)
-  {
-    if (n > 0) result_.notes.push_back(counted(n, name, name + "s") + " " + why + " left out");
-  }
-
-  /// Once each.
-  void take_corners()
-  {
-    std::vector<char> is_corner(mesh().points.size(), false);
-    std::size_t dropped = 0;
-    for (const std::size_t v : soup_.corners) {
-      if (v == none || is_corner[v]) {
-        ++dropped;
-        continue;
-      }
-      mesh().corners.push_back(v);
-      is_corner[v] = true;
-    }
-    note_dropped(dropped, "corner", "of no triangle or listed again");
-  }
-
-  Element_soup_2<K> soup_;
-  Imported_mesh_2<K> result_;
   std::vector<Side> sides_; ///< by edge
 };
 

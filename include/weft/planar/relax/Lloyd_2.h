@@ -128,7 +128,7 @@ private:
     const double weight = feedback(longest / (mean * mean)) * graded_density(mean / unit_);
     const Blind* blind = f->id() >= 0 ? &blind_[as_index(f->id())] : nullptr;
     std::array<Cell, 3> result;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (unsigned i = 0; i < 3; ++i) {
       const Xy &o = p[i], &q = p[(i + 1) % 3], &r = p[(i + 2) % 3];
       const Xy right{0.5 * (q[0] - o[0]), 0.5 * (q[1] - o[1])}, left{0.5 * (r[0] - o[0]), 0.5 * (r[1] - o[1])};
       const Xy c{center[0] - o[0], center[1] - o[1]};

@@ -8,7 +8,7 @@
 #ifndef WEFT_PLANAR_RUN_MESH_IMPROVER_2_H
 #define WEFT_PLANAR_RUN_MESH_IMPROVER_2_H
 
-#include <weft/internal/Run.h>
+#include <weft/internal/run/Run.h>
 #include <weft/options.h>
 #include <weft/planar/graph/insert_pslg.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>

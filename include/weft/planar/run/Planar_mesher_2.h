@@ -7,7 +7,7 @@
 #ifndef WEFT_PLANAR_RUN_PLANAR_MESHER_2_H
 #define WEFT_PLANAR_RUN_PLANAR_MESHER_2_H
 
-#include <weft/internal/Run.h>
+#include <weft/internal/run/Run.h>
 #include <weft/options.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/refine/Batch_refiner_2.h>

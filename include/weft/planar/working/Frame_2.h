@@ -14,7 +14,8 @@
 #include <CGAL/Bbox_2.h>
 
 #include <algorithm>
-#include <vector>
+#include <array>
+#include <cstddef>
 
 namespace weft::internal {
 
@@ -37,9 +38,10 @@ public:
   {
     const double d = 2 * (std::max)(box.xmax() - box.xmin(), box.ymax() - box.ymin());
     const double x0 = box.xmin() - d, x1 = box.xmax() + d, y0 = box.ymin() - d, y1 = box.ymax() + d;
-    for (const Point& p : {Point(x0, y0), Point(x1, y0), Point(x1, y1), Point(x0, y1)}) {
-      vertices_.push_back(cdt_.insert(p));
-      vertices_.back()->set_constraint(fixed_vertex);
+    const std::array<Point, 4> corners{Point(x0, y0), Point(x1, y0), Point(x1, y1), Point(x0, y1)};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      vertices_[i] = cdt_.insert(corners[i]);
+      vertices_[i]->set_constraint(fixed_vertex);
     }
     // Faces that insertion made lie outside of the old hull, so outside of the domain.
     for (const Vertex_handle v : vertices_) {
@@ -52,8 +54,9 @@ public:
 
   void remove()
   {
-    for (const Vertex_handle v : vertices_) remove_hull_vertex(cdt_, v);
-    vertices_.clear();
+    for (const Vertex_handle v : vertices_)
+      if (v != Vertex_handle()) remove_hull_vertex(cdt_, v);
+    vertices_.fill(Vertex_handle());
   }
 
   /// Gives its vertices consecutive numbers.
@@ -62,11 +65,14 @@ public:
     for (const Vertex_handle v : vertices_) v->set_id(id++);
   }
 
-  bool contains(Vertex_handle v) const { return std::find(vertices_.begin(), vertices_.end(), v) != vertices_.end(); }
+  bool contains(Vertex_handle v) const
+  {
+    return v == vertices_[0] || v == vertices_[1] || v == vertices_[2] || v == vertices_[3];
+  }
 
 private:
   Cdt& cdt_;
-  std::vector<Vertex_handle> vertices_;
+  std::array<Vertex_handle, 4> vertices_; // null while there is no frame
 };
 
 } // namespace weft::internal

@@ -6,6 +6,7 @@
 #ifndef WEFT_SPATIAL_CRITERIA_BADNESS_MEASURE_3_H
 #define WEFT_SPATIAL_CRITERIA_BADNESS_MEASURE_3_H
 
+#include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/restricted/Mesh_triangulation_3.h>
 
@@ -174,18 +175,18 @@ public:
       if (ratio > worst.ratio) worst = {p, ratio, is_vertex};
     };
     mesh_->oracle().visit_salient_points(f.steiner, f.squared_radius, f.patch, [&](const Point& p, bool attracts) {
-      if (attracts && prism.contains(p)) take(p, tip_tolerance, true);
+      if (attracts && prism.contains(p)) take(p, Approximation_multiples::tip, true);
     });
-    const double least = (std::min)(ridge_tolerance, sharp_tolerance) * bound;
-    mesh_->oracle().visit_ridges(f.steiner, f.squared_radius, f.patch,
-                                 [&](const Point& p, const Point& q, bool attracts) {
-                                   if (prism.height(p) < least && prism.height(q) < least)
-                                     return; // it is less in between
-                                   double low = 0, high = 1;
-                                   if (!prism.clip(p, q, low, high)) return;
-                                   for (const double t : {low, high})
-                                     take(p + t * (q - p), attracts ? ridge_tolerance : sharp_tolerance, attracts);
-                                 });
+    const double least = (std::min)(Approximation_multiples::ridge, Approximation_multiples::sharp_edge) * bound;
+    mesh_->oracle().visit_ridges(
+        f.steiner, f.squared_radius, f.patch, [&](const Point& p, const Point& q, bool attracts) {
+          if (prism.height(p) < least && prism.height(q) < least) return; // it is less in between
+          double low = 0, high = 1;
+          if (!prism.clip(p, q, low, high)) return;
+          for (const double t : {low, high})
+            take(p + t * (q - p), attracts ? Approximation_multiples::ridge : Approximation_multiples::sharp_edge,
+                 attracts);
+        });
     return worst;
   }
 
@@ -214,14 +215,6 @@ public:
     return (at.dimension == 1 && at.index == crease) ||
            (at.dimension == 0 && mesh_->incidence().corner_is_on_crease(at.index, crease));
   }
-
-  /// Tips may stick out farther than the approximation bound, which is about Steiner points: less takes many vertices,
-  /// more lets the distance to the surface grow.
-  static constexpr double tip_tolerance = 1.5;
-
-  /// The same for points of ridges, between tips, and of sharp edges that aren't creases. Less for ridges costs few
-  /// vertices, less for sharp edges more.
-  static constexpr double ridge_tolerance = 2.2, sharp_tolerance = 2.5;
 
   /// A ratio for what is bad or not without a measure.
   static constexpr double just_bad = 1.0001;

@@ -12,6 +12,7 @@
 #include <weft/internal/boxes/nearest_point_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
+#include <weft/spatial/surface/surface_topology_3.h>
 
 #include <algorithm>
 #include <array>
@@ -19,8 +20,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -39,29 +38,21 @@ public:
   /// \param largest_angle dihedral angles below it are acute, in degrees.
   Acute_edges_3(const Piecewise_smooth_complex_3<K>& complex, double largest_angle)
   {
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> triangle_of_side;
     std::vector<Box_3> boxes;
-    for (std::size_t t = 0; t < complex.triangles.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t a = complex.triangles[t][i], b = complex.triangles[t][(i + 1) % 3];
-        const auto other = triangle_of_side.find({b, a});
-        if (other == triangle_of_side.end()) {
-          triangle_of_side[{a, b}] = t;
-          continue;
-        }
-        const double angle = smaller_dihedral(complex, t, other->second);
-        if (!(angle < largest_angle * radians_per_degree)) continue;
-        const auto one = away_from(complex, t, a, b), two = away_from(complex, other->second, a, b);
-        edges_.push_back({complex.points[a],
-                          complex.points[b],
-                          unit(minus(one, two)),
-                          {{one[0] + two[0], one[1] + two[1], one[2] + two[2]}},
-                          reach_at(angle)});
-        largest_reach_ = (std::max)(largest_reach_, edges_.back().reach);
-        boxes.emplace_back();
-        for (const std::size_t v : {a, b})
-          boxes.back().add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
-      }
+    visit_opposite_sides(complex.triangles, [&](std::size_t t, std::size_t other, std::size_t a, std::size_t b) {
+      const double angle = smaller_dihedral(complex, t, other);
+      if (!(angle < largest_angle * radians_per_degree)) return;
+      const auto one = away_from(complex, t, a, b), two = away_from(complex, other, a, b);
+      edges_.push_back({complex.points[a],
+                        complex.points[b],
+                        unit(minus(one, two)),
+                        {{one[0] + two[0], one[1] + two[1], one[2] + two[2]}},
+                        reach_at(angle)});
+      largest_reach_ = (std::max)(largest_reach_, edges_.back().reach);
+      boxes.emplace_back();
+      for (const std::size_t v : {a, b})
+        boxes.back().add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
+    });
     boxes_ = Box_hierarchy_3(boxes);
   }
 

@@ -14,14 +14,13 @@
 #include <weft/internal/boxes/nearest_point_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
+#include <weft/spatial/surface/surface_topology_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -136,39 +135,31 @@ private:
   void find_folds(const Piecewise_smooth_complex_3<K>& complex, const Bends& cosines, std::vector<char>& is_end,
                   std::vector<char>& is_sharp, std::vector<int>& patch, std::vector<double>& angle)
   {
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> triangle_of_side;
     std::vector<Box_3> boxes, ridge_boxes;
-    for (std::size_t t = 0; t < complex.triangles.size(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t a = complex.triangles[t][i], b = complex.triangles[t][(i + 1) % 3];
-        const auto other = triangle_of_side.find({b, a});
-        if (other == triangle_of_side.end()) {
-          triangle_of_side[{a, b}] = t;
-          continue;
-        }
-        if (complex.patches[t] != complex.patches[other->second]) continue;
-        const double cosine = cosine_of_bend(complex, t, other->second);
-        if (!(cosine < cosines.fold)) continue;
-        const bool attracts = cosine >= cosines.sharp || cosine < cosines.acute;
-        const Fold fold{complex.points[a], complex.points[b], complex.patches[t], std::acos((std::max)(-1.0, cosine)),
-                        attracts};
-        Box_3 box;
-        for (const std::size_t v : {a, b}) box.add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
-        if (cosine < cosines.ridge) {
-          ridges_.push_back(fold);
-          ridge_boxes.push_back(box);
-        }
-        if (attracts) {
-          folds_.push_back(fold);
-          boxes.push_back(box);
-        }
-        for (const std::size_t v : {a, b}) {
-          is_end[v] = true;
-          is_sharp[v] = is_sharp[v] || !attracts;
-          angle[v] = (std::max)(angle[v], fold.angle);
-          patch[v] = complex.patches[t];
-        }
+    visit_opposite_sides(complex.triangles, [&](std::size_t t, std::size_t other, std::size_t a, std::size_t b) {
+      if (complex.patches[t] != complex.patches[other]) return;
+      const double cosine = cosine_of_bend(complex, t, other);
+      if (!(cosine < cosines.fold)) return;
+      const bool attracts = cosine >= cosines.sharp || cosine < cosines.acute;
+      const Fold fold{complex.points[a], complex.points[b], complex.patches[t], std::acos((std::max)(-1.0, cosine)),
+                      attracts};
+      Box_3 box;
+      for (const std::size_t v : {a, b}) box.add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
+      if (cosine < cosines.ridge) {
+        ridges_.push_back(fold);
+        ridge_boxes.push_back(box);
       }
+      if (attracts) {
+        folds_.push_back(fold);
+        boxes.push_back(box);
+      }
+      for (const std::size_t v : {a, b}) {
+        is_end[v] = true;
+        is_sharp[v] = is_sharp[v] || !attracts;
+        angle[v] = (std::max)(angle[v], fold.angle);
+        patch[v] = complex.patches[t];
+      }
+    });
     fold_boxes_ = Box_hierarchy_3(boxes);
     ridge_boxes_ = Box_hierarchy_3(ridge_boxes);
     folds_ = by_block(folds_, fold_boxes_);

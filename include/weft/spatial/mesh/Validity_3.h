@@ -85,6 +85,17 @@ inline std::ostream& operator<<(std::ostream& out, const Validity_3& validity)
   return validity.ok() ? out << "valid\n" : out;
 }
 
+namespace internal {
+
+/// As faults have them.
+template <std::size_t N>
+std::vector<std::size_t> listed(const std::array<std::size_t, N>& vertices)
+{
+  return {vertices.begin(), vertices.end()};
+}
+
+} // namespace internal
+
 } // namespace weft
 
 #endif // WEFT_SPATIAL_MESH_VALIDITY_3_H

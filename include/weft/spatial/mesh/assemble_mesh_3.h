@@ -9,7 +9,7 @@
 #define WEFT_SPATIAL_MESH_ASSEMBLE_MESH_3_H
 
 #include <weft/errors.h>
-#include <weft/internal/counted.h>
+#include <weft/internal/run/Mesh_assembler.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
 #include <weft/spatial/mesh/Element_soup_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
@@ -31,12 +31,20 @@ namespace internal {
 
 /// Builds the mesh; `assemble_mesh_3()` runs it.
 template <class K>
-class Mesh_assembler_3
+class Mesh_assembler_3 : private Mesh_assembler<Element_soup_3<K>, Imported_mesh_3<K>>
 {
+  using Base = Mesh_assembler<Element_soup_3<K>, Imported_mesh_3<K>>;
+  using Base::none;
+  using Base::note_dropped;
+  using Base::number_of;
+  using Base::numbers_of;
+  using Base::result_;
+  using Base::soup_;
+
 public:
   using Point = typename K::Point_3;
 
-  explicit Mesh_assembler_3(Element_soup_3<K> soup) : soup_(std::move(soup)) {}
+  explicit Mesh_assembler_3(Element_soup_3<K> soup) : Base(std::move(soup)) {}
 
   Imported_mesh_3<K> run()
   {
@@ -58,54 +66,17 @@ public:
   }
 
 private:
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-
   Tetrahedral_mesh_3<K>& mesh() { return result_.mesh; }
 
   // ---- checks
 
-  std::string number_of(std::size_t v) const { return std::to_string(v + soup_.first_number); }
-
-  template <std::size_t N>
-  std::string numbers_of(const std::array<std::size_t, N>& vertices) const
-  {
-    std::string text;
-    for (const std::size_t v : vertices) text += (text.empty() ? "" : " ") + number_of(v);
-    return text;
-  }
-
-  [[noreturn]] void refuse_cell(std::size_t c, const std::string& what) const
-  {
-    const auto& v = soup_.cells[c];
-    throw Domain_error("cell " + std::to_string(c + soup_.first_number) + " (vertices " + numbers_of(v) + ") " + what,
-                       {v.begin(), v.end()}, {c});
-  }
-
-  template <std::size_t N>
-  void check_indices(const std::vector<std::array<std::size_t, N>>& elements, const std::vector<int>& tags,
-                     const char* name) const
-  {
-    if (!tags.empty() && tags.size() != elements.size())
-      throw Domain_error("there are " + std::to_string(elements.size()) + " " + name + "s and " +
-                             std::to_string(tags.size()) + " tags of them",
-                         {}, {});
-    for (std::size_t e = 0; e < elements.size(); ++e)
-      for (const std::size_t v : elements[e])
-        if (v >= soup_.points.size())
-          throw Domain_error(std::string(name) + " " + std::to_string(e + soup_.first_number) + " has the vertex " +
-                                 number_of(v) + ", which there isn't",
-                             {v}, {e});
-  }
-
   void check_indices() const
   {
     if (soup_.cells.empty()) throw Domain_error("there are no tetrahedra", {}, {});
-    check_indices(soup_.cells, soup_.cell_tags, "cell");
-    check_indices(soup_.facets, soup_.facet_tags, "facet");
-    check_indices(soup_.edges, soup_.edge_tags, "edge");
-    for (const std::size_t v : soup_.corners)
-      if (v >= soup_.points.size())
-        throw Domain_error("there is no vertex " + number_of(v) + " to be a corner", {v}, {});
+    Base::check_indices(soup_.cells, soup_.cell_tags, "cell");
+    Base::check_indices(soup_.facets, soup_.facet_tags, "facet");
+    Base::check_indices(soup_.edges, soup_.edge_tags, "edge");
+    this->check_corner_indices();
   }
 
   /// Coordinates are finite, and no two vertices of cells at one place.
@@ -134,18 +105,10 @@ private:
 
   void check_cells() const
   {
-    std::vector<std::pair<std::array<std::size_t, 4>, std::size_t>> keys;
-    for (std::size_t c = 0; c < soup_.cells.size(); ++c) {
-      keys.emplace_back(sorted(soup_.cells[c]), c);
-      const auto& key = keys.back().first;
-      if (std::adjacent_find(key.begin(), key.end()) != key.end()) refuse_cell(c, "has a vertex twice");
-      if (orientation(soup_.points, soup_.cells[c]) == CGAL::COPLANAR) refuse_cell(c, "has no volume");
-    }
-    std::sort(keys.begin(), keys.end());
-    for (std::size_t i = 1; i < keys.size(); ++i)
-      if (keys[i - 1].first == keys[i].first)
-        refuse_cell(keys[i].second, "is there twice: it has the vertices of cell " +
-                                        std::to_string(keys[i - 1].second + soup_.first_number));
+    this->check_repetitions(soup_.cells, "cell", [this](std::size_t c) {
+      if (orientation(soup_.points, soup_.cells[c]) == CGAL::COPLANAR)
+        this->refuse("cell", soup_.cells, c, "has no volume");
+    });
   }
 
   static CGAL::Orientation orientation(const std::vector<Point>& points, const std::array<std::size_t, 4>& c)
@@ -157,18 +120,9 @@ private:
 
   void drop_isolated_points()
   {
-    auto& origin = result_.point_origin;
-    std::vector<std::size_t> place(soup_.points.size(), none);
-    for (std::size_t v = 0; v < place.size(); ++v) {
-      if (!is_used_[v]) continue;
-      place[v] = origin.size();
-      origin.push_back(v);
-    }
-    const std::size_t dropped = place.size() - origin.size();
-    if (dropped == 0) return;
-    const auto first = static_cast<std::size_t>(std::find(place.begin(), place.end(), none) - place.begin());
-    result_.notes.push_back(counted(dropped, "vertex", "vertices") + " of no cell left out, the first is " +
-                            number_of(first));
+    const std::vector<std::size_t> place = this->number_points(soup_.cells, "cell");
+    const auto& origin = result_.point_origin;
+    if (origin.size() == place.size()) return;
     const auto keep = [&](auto& values) {
       if (values.empty()) return;
       for (std::size_t v = 0; v < origin.size(); ++v) values[v] = values[origin[v]];
@@ -204,11 +158,6 @@ private:
     if (!tags.empty()) tags.resize(n);
   }
 
-  void note_dropped(std::size_t n, const std::string& name, const std::string& why)
-  {
-    if (n > 0) result_.notes.push_back(counted(n, name, name + "s") + " " + why + " left out");
-  }
-
   // ---- tags
 
   /// Tags as numbers from `first`: less by what they are too large where all are positive, as weft writes them, else
@@ -239,8 +188,9 @@ private:
   /// hangs together is positive. What is negative then is turned over in space, not just in the list.
   void orient_cells()
   {
-    const std::size_t n = mesh().cells.size();
-    std::vector<std::vector<std::pair<std::size_t, bool>>> neighbours(n); // and whether they agree as they are
+    auto& cells = mesh().cells;
+    const auto& points = mesh().points;
+    typename Base::Neighbours neighbours(cells.size());
     for_each_facet(all_facets_, [&](auto first, auto last) {
       if (last - first > 2) refuse_crowded_facet(*first, static_cast<std::size_t>(last - first));
       if (last - first < 2) return;
@@ -250,9 +200,11 @@ private:
       neighbours[first->cell].emplace_back(second->cell, agree);
       neighbours[second->cell].emplace_back(first->cell, agree);
     });
-    std::vector<signed char> sense(n, 0);
-    for (std::size_t seed = 0; seed < n; ++seed)
-      if (sense[seed] == 0) orient_part(seed, neighbours, sense);
+    const auto volume = [&](std::size_t c) {
+      const auto& v = cells[c];
+      return CGAL::to_double(CGAL::volume(points[v[0]], points[v[1]], points[v[2]], points[v[3]]));
+    };
+    this->orient(neighbours, "cell", volume, [&](std::size_t c) { std::swap(cells[c][2], cells[c][3]); });
     all_facets_ = cell_facets(mesh().cells); // corners have changed places
     for (const auto& cell : mesh().cells) result_.inverted_cells += orientation(mesh().points, cell) == CGAL::NEGATIVE;
   }
@@ -264,33 +216,6 @@ private:
     throw Domain_error("the facet with the vertices " + numbers_of(vertices) + " has " + std::to_string(cells) +
                            " cells",
                        {vertices.begin(), vertices.end()}, {facet.cell});
-  }
-
-  void orient_part(std::size_t seed, const std::vector<std::vector<std::pair<std::size_t, bool>>>& neighbours,
-                   std::vector<signed char>& sense)
-  {
-    std::vector<std::size_t> part = {seed};
-    sense[seed] = 1;
-    double volume = 0;
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      const std::size_t c = part[k];
-      const auto& v = mesh().cells[c];
-      volume += sense[c] * CGAL::to_double(CGAL::volume(mesh().points[v[0]], mesh().points[v[1]], mesh().points[v[2]],
-                                                        mesh().points[v[3]]));
-      for (const auto& [other, agree] : neighbours[c]) {
-        const auto wanted = static_cast<signed char>(agree ? sense[c] : -sense[c]);
-        if (sense[other] == 0) {
-          sense[other] = wanted;
-          part.push_back(other);
-        } else if (sense[other] != wanted) {
-          throw Domain_error("the cells can't be oriented alike: cells " + std::to_string(c + soup_.first_number) +
-                                 " and " + std::to_string(other + soup_.first_number) + " contradict each other",
-                             {}, {c, other});
-        }
-      }
-    }
-    for (const std::size_t c : part)
-      if ((sense[c] < 0) == (volume > 0)) std::swap(mesh().cells[c][2], mesh().cells[c][3]);
   }
 
   // ---- facets
@@ -374,16 +299,7 @@ private:
     std::vector<char> may_be(mesh().points.size(), false);
     for (const auto& facet : mesh().facets)
       for (const std::size_t v : facet) may_be[v] = true;
-    std::size_t dropped = 0;
-    for (const std::size_t v : soup_.corners) {
-      if (!may_be[v]) {
-        ++dropped;
-        continue;
-      }
-      mesh().corners.push_back(v);
-      may_be[v] = false;
-    }
-    note_dropped(dropped, "corner", "off the boundary or listed again");
+    Base::take_corners(std::move(may_be), "off the boundary or listed again");
   }
 
   /// A corner, else on a crease, else on a patch, else inside; of several parts the one that the file names, or the
@@ -412,8 +328,6 @@ private:
         locations[v] = soup_.locations[v];
   }
 
-  Element_soup_3<K> soup_;
-  Imported_mesh_3<K> result_;
   std::vector<bool> is_used_, named_; ///< by point: of a cell; located where its tag says
   std::vector<Cell_facet_3> all_facets_;
 };

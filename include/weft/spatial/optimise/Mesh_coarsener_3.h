@@ -7,6 +7,7 @@
 
 #include <weft/internal/boxes/nearest_point_3.h>
 #include <weft/internal/timer.h>
+#include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Coarsen_options_3.h>
@@ -125,7 +126,7 @@ private:
   bool is_needed(Vertex_handle v)
   {
     if (v->location().dimension != 2) return false;
-    const double bound = hopeless * guard_.measure().approximation(v->point());
+    const double bound = Approximation_multiples::needed_vertex * guard_.measure().approximation(v->point());
     if (bound == 0) return false;
     neighbours_.clear();
     for_each_facet_at(mesh_, v, [this, v](const typename Restricted::Restricted_facet& f) {
@@ -175,8 +176,6 @@ private:
     return std::all_of(filling.begin(), filling.end(),
                        [&](Cell_handle c) { return c->subdomain() == 0 || cosines_of_cell(c).smallest <= limit; });
   }
-
-  static constexpr double hopeless = 1.3; ///< parts of the approximation bound
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted>& guard_;

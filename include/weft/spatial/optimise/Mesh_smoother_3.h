@@ -21,11 +21,8 @@
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
-#include <limits>
 #include <optional>
 #include <vector>
 

@@ -6,6 +6,7 @@
 #ifndef WEFT_SPATIAL_REFINE_BAD_ELEMENTS_LIST_3_H
 #define WEFT_SPATIAL_REFINE_BAD_ELEMENTS_LIST_3_H
 
+#include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/refine/Steiner_chooser_3.h>
 
@@ -176,7 +177,7 @@ private:
 
   bool is_far(const Restricted_facet& f) const
   {
-    const double bound = deviation_tolerance * measure_.approximation(f.steiner);
+    const double bound = Approximation_multiples::facet * measure_.approximation(f.steiner);
     if (bound == 0) return false;
     const Point &a = Measure::vertex(f, 1)->point(), &b = Measure::vertex(f, 2)->point(),
                 &c = Measure::vertex(f, 3)->point();
@@ -184,10 +185,6 @@ private:
     return !std::all_of(std::begin(samples), std::end(samples),
                         [&](const Point& p) { return mesh_.oracle().is_within(p, bound * bound); });
   }
-
-  /// Facets may be farther from the surface than the approximation bound, which is about Steiner points. Less takes
-  /// more vertices and brings the surface no nearer.
-  static constexpr double deviation_tolerance = 1.6;
 
   Restricted& mesh_;
   const Measure& measure_;

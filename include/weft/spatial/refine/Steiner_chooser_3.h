@@ -11,6 +11,7 @@
 #define WEFT_SPATIAL_REFINE_STEINER_CHOOSER_3_H
 
 #include <weft/spatial/criteria/Badness_measure_3.h>
+#include <weft/spatial/refine/Facet_gain_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -21,7 +22,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -42,15 +42,11 @@ public:
 
   /// \param squared_floor smallest squared distance from a vertex.
   Steiner_chooser_3(const Restricted& mesh, const Measure& measure, double squared_floor)
-      : mesh_(mesh), measure_(measure), squared_floor_(squared_floor)
+      : mesh_(mesh), measure_(measure), squared_floor_(squared_floor), gain_of_facets_(mesh, measure)
   {}
 
   /// To be told of every new facet; cells have their `bad_index()`.
-  void set_bad_facet(std::size_t record, bool is_bad)
-  {
-    if (record >= is_bad_facet_.size()) is_bad_facet_.resize(record + 1, false);
-    is_bad_facet_[record] = is_bad;
-  }
+  void set_bad_facet(std::size_t record, bool is_bad) { gain_of_facets_.set_bad_facet(record, is_bad); }
 
   /// The best Steiner point for a bad cell that encroaches upon nothing.
   /// \param batch zones that touch its claims are off limits.
@@ -86,7 +82,7 @@ public:
       const double nearest = nearest_in(zone);
       if (p != f.steiner && nearest < (std::max)(squared_floor_, least_distance * least_distance * f.squared_radius))
         continue;
-      best.take(p, gain_of_facets(zone, tie(nearest, f.squared_radius), best.gain));
+      best.take(p, gain_of_facets_(zone, tie(nearest, f.squared_radius), best.gain));
     }
     return find(best.point, f, batch, zone);
   }
@@ -288,76 +284,16 @@ private:
     return gain;
   }
 
-  /// The same for restricted facets: those whose balls the point enters, less the triangles between it and the
-  /// boundary of their union. How far such a triangle will be from the surface is estimated at its circumcenter.
-  double gain_of_facets(const Zone& zone, double gain, double least)
-  {
-    sides_.clear();
-    records_.clear();
-    for (const Cell_handle c : zone.cells)
-      for (int i = 0; i < 4; ++i)
-        if (const Restricted_facet* f = mesh_.facet(c, i))
-          if (squared(zone.point, f->steiner) < f->squared_radius) records_.push_back(c->facet_record(i));
-    std::sort(records_.begin(), records_.end());
-    records_.erase(std::unique(records_.begin(), records_.end()), records_.end());
-    for (const int record : records_) {
-      const auto r = static_cast<std::size_t>(record);
-      gain += is_bad_facet_[r];
-      for (int i = 1; i <= 3; ++i) {
-        const Vertex_handle v = Measure::vertex(mesh_.facets()[r], i),
-                            w = Measure::vertex(mesh_.facets()[r], i % 3 + 1);
-        sides_.push_back(v->id() < w->id() ? Side(v, w) : Side(w, v));
-      }
-    }
-    keep_single_sides();
-    for (const auto& [v, w] : sides_) {
-      if (gain <= least) return gain;
-      gain -= is_bad_facet(zone.point, v->point(), w->point());
-    }
-    return gain;
-  }
-
-  /// Drops the sides that two facets or more have in common.
-  void keep_single_sides()
-  {
-    std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-      return std::make_pair(a.first->id(), a.second->id()) < std::make_pair(b.first->id(), b.second->id());
-    });
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < sides_.size();) {
-      std::size_t j = i + 1;
-      while (j < sides_.size() && sides_[j] == sides_[i]) ++j;
-      if (j == i + 1) sides_[n++] = sides_[i];
-      i = j;
-    }
-    sides_.resize(n);
-  }
-
-  bool is_bad_facet(const Point& p, const Point& q, const Point& r) const
-  {
-    if (measure_.is_bad_facet(p, q, r)) return true;
-    if constexpr (!Restricted::Oracle::labels_first) {
-      const double bound = measure_.approximation(p);
-      if (bound == 0) return false;
-      return !mesh_.oracle().is_within(CGAL::circumcenter(p, q, r), bound * bound);
-    }
-    return false;
-  }
-
   static double squared(const Point& p, const Point& q) { return CGAL::to_double(CGAL::squared_distance(p, q)); }
 
   /// Part of the circumradius that a Steiner point keeps from all vertices. 0.4 to 0.7 make no difference.
   static constexpr double least_distance = 0.6;
 
-  using Side = std::pair<Vertex_handle, Vertex_handle>;
-
   const Restricted& mesh_;
   const Measure& measure_;
   double squared_floor_;
-  std::vector<char> is_bad_facet_; ///< by record
+  Facet_gain_3<Restricted> gain_of_facets_;
   std::vector<Point> points_;
-  std::vector<int> records_;
-  std::vector<Side> sides_;
 };
 
 } // namespace weft::internal

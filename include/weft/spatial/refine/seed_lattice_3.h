@@ -8,9 +8,10 @@
 #ifndef WEFT_SPATIAL_REFINE_SEED_LATTICE_3_H
 #define WEFT_SPATIAL_REFINE_SEED_LATTICE_3_H
 
+#include <weft/spatial/restricted/spatial_order_3.h>
+
 #include <CGAL/Bbox_3.h>
 #include <CGAL/number_utils.h>
-#include <CGAL/spatial_sort.h>
 #include <CGAL/squared_distance_3.h>
 
 #include <array>
@@ -45,8 +46,10 @@ std::vector<typename Oracle::Kernel::Point_3> interior_lattice(const Oracle& ora
         if (oracle.is_clear(p, clearance) && oracle.subdomain(p) != 0) points.push_back(p);
       }
   // Row by row, each point would see half of the surface.
-  CGAL::spatial_sort(points.begin(), points.end());
-  return points;
+  std::vector<Point> in_order;
+  in_order.reserve(points.size());
+  for (const std::size_t i : insertion_order_3<typename Oracle::Kernel>(points)) in_order.push_back(points[i]);
+  return in_order;
 }
 
 /// Drops the points that lie in a surface Delaunay ball of a restricted facet: inserted, they could end up on the

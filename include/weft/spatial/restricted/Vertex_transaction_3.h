@@ -80,7 +80,8 @@ private:
 };
 
 /// A change of one vertex that is under way. It is rolled back unless it is committed, also when something is thrown;
-/// nothing else may change the mesh in between.
+/// nothing else may change the mesh in between. Where the oracle throws while a change is rolled back, the vertices are
+/// as they were, and the mesh's `update()` classifies what is left.
 /// \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
 class Vertex_transaction_3
@@ -110,7 +111,7 @@ public:
   Vertex_transaction_3(Restricted& mesh, const Zone& zone, const Vertex_location_3& location, int id)
       : Vertex_transaction_3(mesh, id, zone.point, location)
   {
-    insert(zone); // this object exists already: what is thrown here has it rolled back
+    insert(zone, State::inserted); // this object exists already: what is thrown here has it rolled back
   }
 
   ~Vertex_transaction_3() noexcept(false)
@@ -204,10 +205,10 @@ public:
     Zone zone; // always found: the point was there before
     if (state_ == State::left_out) {
       const bool is_classified = mesh_.new_cells_.empty(); // or the oracle threw
-      find_conflict_zone(mesh_.triangulation(), origin_,
-                         is_classified ? mesh_.new_cells().front() : filling_.front(), zone);
+      find_conflict_zone(mesh_.triangulation(), origin_, is_classified ? mesh_.new_cells().front() : filling_.front(),
+                         zone);
       if (!is_classified) drop_cells(zone, mesh_.new_cells_);
-      insert(zone);
+      insert(zone, State::closed);
     } else {
       find_conflict_zone(mesh_.triangulation(), origin_, filling_.front(), zone);
       place(zone);
@@ -233,15 +234,18 @@ private:
 
   Vertex_handle vertex() const { return mesh_.vertices_[static_cast<std::size_t>(id_)]; }
 
-  void insert(const Zone& zone)
+  void insert(const Zone& zone, State after)
   {
-    const int id = id_;
     mesh_.insert(zone, location_);
-    id_ = static_cast<int>(mesh_.vertices_.size()) - 1; // should the oracle throw
-    state_ = State::inserted;
-    mesh_.update();
-    exchange_numbers(id, id_);
-    id_ = id;
+    const int last = static_cast<int>(mesh_.vertices_.size()) - 1;
+    state_ = after;
+    try {
+      mesh_.update();
+    } catch (...) { // what the oracle throws
+      exchange_numbers(id_, last);
+      throw;
+    }
+    exchange_numbers(id_, last);
   }
 
   /// Drops those cells that a vertex at the point of a zone will replace.

@@ -6,9 +6,10 @@
 #ifndef WEFT_SPATIAL_RUN_REFINEMENT_3_H
 #define WEFT_SPATIAL_RUN_REFINEMENT_3_H
 
-#include <weft/internal/Run.h>
+#include <weft/internal/run/Run.h>
 #include <weft/options.h>
 #include <weft/report.h>
+#include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/refine/Batch_refiner_3.h>
 #include <weft/spatial/refine/Boundary_seeder_3.h>
@@ -112,7 +113,7 @@ public:
     const double diagonal = std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
     double floor = 1e-3 * (criteria_.size.is_constant() ? (std::min)(diagonal, criteria_.size.constant()) : diagonal);
     if (criteria_.approximation && criteria_.approximation.is_constant())
-      floor = (std::min)(floor, 0.1 * criteria_.approximation.constant());
+      floor = (std::min)(floor, Approximation_multiples::size_floor * criteria_.approximation.constant());
     return floor;
   }
 

@@ -6,13 +6,13 @@
 #ifndef WEFT_SPATIAL_RUN_SPATIAL_MESHER_3_H
 #define WEFT_SPATIAL_RUN_SPATIAL_MESHER_3_H
 
-#include <weft/internal/Run.h>
+#include <weft/internal/run/Run.h>
 #include <weft/options.h>
 #include <weft/report.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
+#include <weft/spatial/mesh/check_manifold_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
-#include <weft/spatial/mesh/validate_3.h>
 #include <weft/spatial/optimise/coarsen_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>

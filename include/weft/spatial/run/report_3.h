@@ -7,8 +7,8 @@
 
 #include <weft/report.h>
 #include <weft/spatial/criteria/bad_elements_3.h>
+#include <weft/spatial/mesh/check_manifold_3.h>
 #include <weft/spatial/mesh/quality_3.h>
-#include <weft/spatial/mesh/validate_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
 

@@ -28,8 +28,7 @@ bool restart_where_bad_3(Refinement_3<Restricted>& refinement)
   constexpr int most_restarts = 12;
   constexpr std::size_t most_batches_again = 300; // of each; what takes more isn't going to end
   Restricted& mesh = refinement.mesh();
-  // What went wrong all over isn't bad luck: a cheese of sharp holes goes from 692 bad elements to 22,000 in three
-  // rounds.
+  // What went wrong all over isn't bad luck, and only gets worse.
   const std::size_t few = (std::max)(std::size_t(50), mesh.vertices().size() / 100);
   Vertex_set_3<Kernel> best;
   std::vector<Ball_3<Kernel>> balls_of_best;

@@ -2,21 +2,25 @@
 //
 // Does a closed, oriented, manifold surface bound a volume? Its shells must not be flat, and its facets may meet in
 // shared vertices and edges only. Shells are then turned so that the volume lies behind the facets, by the parity of
-// their nesting. Self-intersections and nesting are left to CGAL's Polygon_mesh_processing.
+// their nesting. Everything is decided exactly, by what domain oracles decide with: CGAL's Polygon_mesh_processing,
+// which has the same tests, would double the time to compile.
 
 #ifndef WEFT_SPATIAL_SURFACE_CHECK_SURFACE_VOLUME_3_H
 #define WEFT_SPATIAL_SURFACE_CHECK_SURFACE_VOLUME_3_H
 
+#include <weft/internal/boxes/perturbed_crossing_3.h>
+#include <weft/internal/boxes/Triangle_hierarchy_3.h>
 #include <weft/spatial/surface/check_surface_topology_3.h>
 
-#include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
+#include <CGAL/enum.h>
+#include <CGAL/MP_Float.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,38 +48,77 @@ void check_flat_shells(const Triangle_surface_3<K>& surface, const Surface_topol
   if (!bad.empty()) refuse_facets(surface, "bounds no volume", "form shells of zero volume", bad);
 }
 
-/// The surface as CGAL's mesh: facets in the same order, vertices only those that facets use, because CGAL's functions
-/// don't expect others. `position[v]` receives the vertex of point v. \pre Closed, manifold, oriented.
+/// A triangle of a surface as hierarchies take it.
 template <class K>
-CGAL::Surface_mesh<typename K::Point_3>
-surface_mesh(const Triangle_surface_3<K>& surface,
-             std::vector<typename CGAL::Surface_mesh<typename K::Point_3>::Vertex_index>& position)
+Surface_triangle_3<K> hierarchy_triangle(const Triangle_surface_3<K>& surface, std::size_t triangle)
 {
-  using Mesh = CGAL::Surface_mesh<typename K::Point_3>;
-  using Index = typename Mesh::size_type;
-  Mesh mesh;
-  const std::size_t vertices = surface.points.size(), facets = surface.triangles.size();
-  mesh.reserve(static_cast<Index>(vertices), static_cast<Index>(3 * facets / 2), static_cast<Index>(facets));
-  position.assign(vertices, Mesh::null_vertex());
-  for (const auto& triangle : surface.triangles) {
-    for (const std::size_t v : triangle)
-      if (position[v] == Mesh::null_vertex()) position[v] = mesh.add_vertex(surface.points[v]);
-    mesh.add_face(position[triangle[0]], position[triangle[1]], position[triangle[2]]);
+  Surface_triangle_3<K> result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t v = surface.triangles[triangle][i];
+    result.points[i] = surface.points[v];
+    result.vertices[i] = static_cast<std::uint32_t>(v);
   }
-  return mesh;
+  result.index = static_cast<std::uint32_t>(triangle);
+  result.patch = 0;
+  return result;
 }
 
-template <class K, class Mesh>
-void check_self_intersections(const Triangle_surface_3<K>& surface, const Mesh& mesh)
+/// Whether two triangles that share an edge lie in one plane, on the same side of it.
+template <class K>
+bool are_folded(const Triangle_surface_3<K>& surface, const Surface_side_3& a, const Surface_side_3& b)
 {
-  using Face = typename Mesh::Face_index;
-  std::vector<std::pair<Face, Face>> found;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(found));
+  const auto &p = surface.points[a.low], &q = surface.points[a.high],
+             &r = surface.points[surface.triangles[a.triangle][static_cast<std::size_t>((a.side + 2) % 3)]],
+             &s = surface.points[surface.triangles[b.triangle][static_cast<std::size_t>((b.side + 2) % 3)]];
+  return K().orientation_3_object()(p, q, r, s) == CGAL::COPLANAR &&
+         K().coplanar_orientation_3_object()(p, q, r, s) == CGAL::POSITIVE;
+}
+
+/// The pairs of triangles that have more in common than a vertex or an edge that both have, some of them several times.
+/// Unless they share an edge, an edge of one of them meets the other, and none of its ends is a vertex of that.
+/// \pre No facet is degenerate, and every edge has two sides.
+template <class K>
+std::vector<std::array<std::size_t, 2>> intersecting_triangles(const Triangle_surface_3<K>& surface,
+                                                               const std::vector<Surface_side_3>& sides)
+{
+  using Triangle = Surface_triangle_3<K>;
+  std::vector<Triangle> triangles;
+  triangles.reserve(surface.triangles.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) triangles.push_back(hierarchy_triangle(surface, t));
+  const Triangle_hierarchy_3<K> hierarchy(triangles);
+  std::vector<std::array<std::size_t, 2>> found;
+  for_each_edge(sides, [&](auto first, auto) {
+    const Surface_side_3 &left = *first, &right = *(first + 1);
+    if (are_folded(surface, left, right)) found.push_back({left.triangle, right.triangle});
+    const auto &p = surface.points[left.low], &q = surface.points[left.high];
+    hierarchy.visit_near_segment(p, q, [&](const Triangle& triangle) {
+      for (const std::size_t v : triangle.vertices)
+        if (v == left.low || v == left.high) return false;
+      const Segment_and_triangle_3<K> pair(p, q, triangle);
+      if (pair.misses()) return false;
+      bool touches = !pair.is_degenerate();
+      if (!touches) pair.contacts([&](const auto&) { touches = true; });
+      if (touches) {
+        found.push_back({left.triangle, triangle.index});
+        found.push_back({right.triangle, triangle.index});
+      }
+      return false;
+    });
+  });
+  return found;
+}
+
+template <class K>
+void check_self_intersections(const Triangle_surface_3<K>& surface, const std::vector<Surface_side_3>& sides)
+{
+  std::vector<std::array<std::size_t, 2>> found = intersecting_triangles(surface, sides);
   if (found.empty()) return;
+  for (auto& pair : found) std::sort(pair.begin(), pair.end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   std::vector<std::array<std::size_t, 2>> pairs;
   std::vector<std::size_t> triangles;
-  for (const auto& [f, g] : found) {
-    const auto a = static_cast<std::size_t>(f), b = static_cast<std::size_t>(g);
+  for (const auto& [a, b] : found) {
     triangles.insert(triangles.end(), {a, b});
     pairs.push_back({std::min(surface.origin(a), surface.origin(b)), std::max(surface.origin(a), surface.origin(b))});
   }
@@ -85,23 +128,78 @@ void check_self_intersections(const Triangle_surface_3<K>& surface, const Mesh& 
   refuse(surface, what + ": " + first_few(pairs), corners_of(surface, triangles), triangles);
 }
 
+/// Six times the volume that one triangle adds to that of its shell, seen from a point; in exact numbers.
+template <class K>
+CGAL::MP_Float exact_volume(const Triangle_surface_3<K>& surface, std::size_t triangle, const Xyz_3& seen_from)
+{
+  using Exact = CGAL::MP_Float;
+  std::array<std::array<Exact, 3>, 3> v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Xyz_3 corner = xyz(surface.points[surface.triangles[triangle][i]]);
+    for (std::size_t k = 0; k < 3; ++k) v[i][k] = Exact(corner[k]) - Exact(seen_from[k]);
+  }
+  const auto& [a, b, c] = v;
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// Whether the facets of a shell look outwards: its volume is positive. \pre The shell is closed, oriented alike and
+/// doesn't meet itself, so its volume isn't zero.
+template <class K>
+bool looks_outwards(const Triangle_surface_3<K>& surface, const std::vector<std::size_t>& shell)
+{
+  const Xyz_3 origin = xyz(surface.points[surface.triangles[shell[0]][0]]);
+  double volume = 0, error = 0, absolute = 0;
+  for (const std::size_t t : shell) {
+    std::array<Xyz_3, 3> v;
+    std::array<double, 3> largest;
+    for (std::size_t i = 0; i < 3; ++i) {
+      v[i] = minus(xyz(surface.points[surface.triangles[t][i]]), origin);
+      largest[i] = std::max({std::abs(v[i][0]), std::abs(v[i][1]), std::abs(v[i][2])});
+    }
+    const double part = dot_product(v[0], cross_product(v[1], v[2]));
+    volume += part, absolute += std::abs(part);
+    error += 6e-15 * largest[0] * largest[1] * largest[2]; // see filtered_determinant()
+  }
+  error += 1.2e-16 * static_cast<double>(shell.size()) * absolute; // of the sum: u for each addition
+  if (error > 1e-280 && std::abs(volume) > 1.01 * error) return volume > 0;
+  CGAL::MP_Float exact(0);
+  for (const std::size_t t : shell) exact = exact + exact_volume(surface, t, origin);
+  return CGAL::sign(exact) == CGAL::POSITIVE;
+}
+
+/// In how many other shells each shell lies. \pre Shells are closed and meet neither themselves nor each other.
+template <class K>
+std::vector<int> nesting_depths(const Triangle_surface_3<K>& surface,
+                                const std::vector<std::vector<std::size_t>>& shells)
+{
+  std::vector<int> depths(shells.size(), 0);
+  if (shells.size() < 2) return depths;
+  for (std::size_t outer = 0; outer < shells.size(); ++outer) {
+    std::vector<Surface_triangle_3<K>> triangles;
+    for (const std::size_t t : shells[outer]) triangles.push_back(hierarchy_triangle(surface, t));
+    const Triangle_hierarchy_3<K> hierarchy(triangles);
+    for (std::size_t inner = 0; inner < shells.size(); ++inner)
+      if (inner != outer)
+        depths[inner] += hierarchy.subdomain(surface.points[surface.triangles[shells[inner][0]][0]]) != 0;
+  }
+  return depths;
+}
+
 /// Turns whole shells over so that the volume lies behind all facets: outermost shells bound it from outside, shells in
 /// them are cavities, and so on. Returns the shells that were turned. \pre No self-intersections.
-template <class K, class Mesh>
-std::vector<std::size_t> orient_shells(Triangle_surface_3<K>& surface, const Surface_topology_3& topology, Mesh& mesh,
-                                       const std::vector<typename Mesh::Vertex_index>& position)
+template <class K>
+std::vector<std::size_t> orient_shells(Triangle_surface_3<K>& surface, const Surface_topology_3& topology)
 {
-  CGAL::Polygon_mesh_processing::orient_to_bound_a_volume(mesh);
+  std::vector<std::vector<std::size_t>> shells(static_cast<std::size_t>(topology.number_of_shells));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    shells[static_cast<std::size_t>(topology.shells[t])].push_back(t);
+  const std::vector<int> depths = nesting_depths(surface, shells);
   std::vector<std::size_t> turned;
-  for (const auto face : faces(mesh)) {
-    auto& triangle = surface.triangles[static_cast<std::size_t>(face)];
-    auto h = halfedge(face, mesh);
-    while (source(h, mesh) != position[triangle[0]]) h = next(h, mesh);
-    if (target(h, mesh) == position[triangle[1]]) continue;
-    std::swap(triangle[1], triangle[2]);
-    turned.push_back(static_cast<std::size_t>(topology.shells[static_cast<std::size_t>(face)]));
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    if (looks_outwards(surface, shells[s]) == (depths[s] % 2 == 0)) continue;
+    for (const std::size_t t : shells[s]) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+    turned.push_back(s);
   }
-  sort_unique(turned);
   return turned;
 }
 
@@ -111,10 +209,8 @@ template <class K>
 std::vector<std::string> check_surface_volume(Triangle_surface_3<K>& surface, const Surface_topology_3& topology)
 {
   check_flat_shells(surface, topology);
-  std::vector<typename CGAL::Surface_mesh<typename K::Point_3>::Vertex_index> position;
-  auto mesh = surface_mesh(surface, position);
-  check_self_intersections(surface, mesh);
-  const std::vector<std::size_t> turned = orient_shells(surface, topology, mesh, position);
+  check_self_intersections(surface, topology.sides);
+  const std::vector<std::size_t> turned = orient_shells(surface, topology);
   if (turned.empty()) return {};
   return {counted(turned.size(), "shell was", "shells were") + " inside out and turned over: " + first_few(turned)};
 }

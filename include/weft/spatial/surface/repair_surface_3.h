@@ -167,6 +167,14 @@ std::size_t count_intersecting(const Mesh& mesh)
   return facets.size();
 }
 
+/// Returns whether all could be removed. A function of its own, since it is most of what there is to compile here: a
+/// program may declare it as an extern template and instantiate it in another translation unit.
+template <class Mesh>
+bool remove_intersections(Mesh& mesh)
+{
+  return CGAL::Polygon_mesh_processing::experimental::remove_self_intersections(mesh);
+}
+
 /// What is done on a mesh rather than on a soup: facets cut, borders sewn up, holes closed, intersections removed.
 template <class Mesh>
 void repair_mesh(Mesh& mesh, Repair_log& log)
@@ -187,8 +195,7 @@ void repair_mesh(Mesh& mesh, Repair_log& log)
   if (intersecting > most_facets_to_mend)
     log.push_back("self-intersections left, since " + std::to_string(intersecting) + " facets have them");
   if (intersecting == 0 || intersecting > most_facets_to_mend) return;
-  const bool mended = PMP::experimental::remove_self_intersections(mesh);
-  log.push_back(mended ? "self-intersections removed" : "self-intersections removed in part");
+  log.push_back(remove_intersections(mesh) ? "self-intersections removed" : "self-intersections removed in part");
 }
 
 } // namespace internal

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -62,6 +63,23 @@ void for_each_edge(const std::vector<Surface_side_3>& sides, const Visit& visit)
     visit(first, last);
     first = last;
   }
+}
+
+/// Calls `visit(triangle, other, from, to)` where a side of a triangle runs from one vertex to another, and one of a
+/// triangle before it the other way; of several such the last. In the order of the triangles and their sides.
+template <class Visit>
+void visit_opposite_sides(const std::vector<std::array<std::size_t, 3>>& triangles, const Visit& visit)
+{
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> triangle_of_side;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
+      const auto other = triangle_of_side.find({to, from});
+      if (other == triangle_of_side.end())
+        triangle_of_side[{from, to}] = t;
+      else
+        visit(t, other->second, from, to);
+    }
 }
 
 /// What lies across a side of a triangle.

@@ -2,8 +2,8 @@
 //
 // The course of one run of a mesher: which stage it is in, how long each took, and whether it is to go on.
 
-#ifndef WEFT_INTERNAL_RUN_H
-#define WEFT_INTERNAL_RUN_H
+#ifndef WEFT_INTERNAL_RUN_RUN_H
+#define WEFT_INTERNAL_RUN_RUN_H
 
 #include <weft/internal/timer.h>
 #include <weft/visitor.h>
@@ -107,4 +107,4 @@ private:
 
 } // namespace weft::internal
 
-#endif // WEFT_INTERNAL_RUN_H
+#endif // WEFT_INTERNAL_RUN_RUN_H

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What mesh_3 is made of, without CGAL's types: its parts are compiled apart from each other, since each that sees
+// CGAL takes seconds and half a gigabyte at least.
+
+#ifndef WEFT_EXAMPLES_PROGRAMS_MESH_3_DOMAIN_H
+#define WEFT_EXAMPLES_PROGRAMS_MESH_3_DOMAIN_H
+
+#include <weft/options.h>
+#include <weft/report.h>
+#include <weft/spatial/surface/Feature_options.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mesh_3_program {
+
+/// What a mesh has to satisfy, as in `weft::Criteria_3`.
+struct Bounds
+{
+  double size = 0, approximation = 0; ///< in the input's units
+  double facet_shape = 2, cell_shape = 2;
+  bool topology = false, manifold = false;
+};
+
+/// A mesh with what is known about it; see result.h.
+struct Result;
+
+/// What the input describes.
+class Domain
+{
+public:
+  virtual ~Domain() = default;
+
+  virtual double extent() const = 0; ///< diagonal of its bounding box
+  virtual double detail() const = 0; ///< size of the smallest details of the input that count; 0 if all do
+  /// What was changed in the input, for people.
+  virtual std::vector<std::string> changes() const { return {}; }
+  virtual std::shared_ptr<const Result> mesh(const Bounds& bounds, const weft::Mesh_options_3& options) const = 0;
+};
+
+/// Reads the surfaces that bound a domain.
+/// \param repair whether to mend what isn't a closed surface.
+/// \throws weft::File_error if a file can't be read, weft::Domain_error if the surfaces don't bound a domain.
+std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames, const weft::Feature_options& features,
+                                      bool repair);
+
+/// Whether a file is a labelled image, by its name.
+bool is_image_filename(const std::string& filename);
+/// \throws weft::File_error if the file can't be read.
+std::unique_ptr<Domain> read_image(const std::string& filename);
+
+// ---- Results
+
+const weft::Mesh_report_3& report(const Result& result);
+bool is_empty(const Result& result);
+double smallest_dihedral(const Result& result); ///< in degrees
+
+bool is_mesh_filename(const std::string& filename);
+void write_mesh(const std::string& filename, const Result& result);
+void write_report(const std::string& filename, const Result& result);
+void write_histogram(const std::string& filename, const Result& result, const std::string& title);
+
+} // namespace mesh_3_program
+
+#endif // WEFT_EXAMPLES_PROGRAMS_MESH_3_DOMAIN_H

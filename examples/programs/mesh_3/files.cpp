@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Reads surfaces, writes meshes and figures.
+
+#include "surface.h"
+
+#include <weft/IO/read_surface.h>
+#include <weft/IO/write_angle_histogram_svg.h>
+#include <weft/IO/write_mesh_3.h>
+#include <weft/IO/write_report_json_3.h>
+#include <weft/spatial/surface/merge_surfaces_3.h>
+
+#include <CGAL/Bbox_3.h>
+
+#include <utility>
+
+namespace mesh_3_program {
+
+namespace {
+
+class Surface_domain : public Domain
+{
+public:
+  explicit Surface_domain(weft::Piecewise_smooth_complex_3<K> surface) : surface_(std::move(surface)) {}
+
+  double extent() const override
+  {
+    CGAL::Bbox_3 box;
+    for (const auto& p : surface_.points) box += p.bbox();
+    return diagonal(box);
+  }
+  double detail() const override { return 0; }
+  std::vector<std::string> changes() const override { return surface_.changes; }
+  std::shared_ptr<const Result> mesh(const Bounds& bounds, const weft::Mesh_options_3& options) const override
+  {
+    return mesh_surface(surface_, bounds, options);
+  }
+
+private:
+  weft::Piecewise_smooth_complex_3<K> surface_;
+};
+
+} // namespace
+
+std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames, const weft::Feature_options& features,
+                                      bool is_to_be_repaired)
+{
+  using Repair = weft::Polygon_soup_3<K>::Repair;
+  std::vector<weft::Polygon_soup_3<K>> surfaces;
+  for (const std::string& name : filenames) surfaces.push_back(weft::IO::read_surface<K>(name));
+  return std::make_unique<Surface_domain>(
+      weft::piecewise_smooth_complex(surfaces, features, is_to_be_repaired ? Repair(repair) : Repair()));
+}
+
+// ---- Results
+
+std::shared_ptr<const Result> make_result(weft::Tetrahedral_mesh_3<K> mesh, const weft::Mesh_report_3& report)
+{
+  const weft::Quality_3 quality = weft::measure_quality_3(mesh);
+  return std::make_shared<const Result>(Result{std::move(mesh), report, quality});
+}
+
+const weft::Mesh_report_3& report(const Result& result)
+{
+  return result.report;
+}
+
+bool is_empty(const Result& result)
+{
+  return result.mesh.cells.empty();
+}
+
+double smallest_dihedral(const Result& result)
+{
+  return result.quality.smallest_dihedral.degrees;
+}
+
+bool is_mesh_filename(const std::string& filename)
+{
+  return weft::IO::is_mesh_3_filename(filename);
+}
+
+void write_mesh(const std::string& filename, const Result& result)
+{
+  weft::IO::write_mesh_3(filename, result.mesh);
+}
+
+void write_report(const std::string& filename, const Result& result)
+{
+  weft::IO::write_report_json(filename, result.report, result.quality);
+}
+
+void write_histogram(const std::string& filename, const Result& result, const std::string& title)
+{
+  weft::IO::write_angle_histogram_svg(filename, result.quality.histogram<weft::Angle_histogram>("weft"), title);
+}
+
+} // namespace mesh_3_program
