@@ -110,10 +110,10 @@ TEST_CASE("a full device is an error, whatever is written to it")
   const Folder folder("full");
   folder.write("square.poly", unit_square);
   const auto run = [&](const std::string& arguments) { return folder.run("square.poly --size 0.3 " + arguments); };
-  for (const std::string& arguments :
+  for (const std::string arguments :
        {"--output full.off", "--output full.vtu", "--output full.mesh", "--output full.msh", "--output full.svg",
         "--voronoi full.svg", "--histogram full.svg", "--report full.json"}) {
-    const std::string name = std::string(arguments).substr(std::string(arguments).find(' ') + 1);
+    const std::string name = arguments.substr(arguments.find(' ') + 1);
     fs::create_symlink("/dev/full", fs::current_path() / "mesh_2_program_test_full" / name);
     const Outcome outcome = run(arguments);
     INFO(arguments << outcome.err);
