@@ -82,6 +82,10 @@ private:
   std::unique_ptr<Parser> parser_;
 };
 
+/// A text that is a part of the value of an option, as a length or a whole number. \throws Error as above.
+Length read_length(const std::string& option, const std::string& text, bool may_be_zero = false);
+int read_integer(const std::string& option, const std::string& text);
+
 /// Whether the name of a file ends as wanted (".svg", lower case).
 bool has_extension(const std::string& filename, const std::string& wanted);
 

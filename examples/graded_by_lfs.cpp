@@ -22,8 +22,8 @@ int main(int argc, char** argv)
     const auto pslg = weft::IO::read_pslg<K>(filename);
     weft::Mesh_triangulation_2<K> cdt;
     const auto inserted = weft::insert_pslg(cdt, pslg); // refuses crossing segments and names them
-    weft::mark_domain(cdt, pslg);                       // holes of the file, else nesting parity
-    const auto report = weft::make_mesh_2(cdt, weft::Lfs_sizing_2<K>(pslg, k));
+    weft::mark_domain(cdt, pslg);                       // holes and regions of the file, else nesting parity
+    const auto report = weft::make_mesh_2(cdt, weft::Lfs_sizing_2<K>(inserted.graph, k));
     weft::IO::write_mesh_2("graded_by_lfs.vtu", cdt, inserted.tags);
     weft::IO::write_mesh_2("graded_by_lfs.svg", cdt);
     std::cout << report;

@@ -20,6 +20,8 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -32,12 +34,13 @@ using mesh_2_program::Domain;
 // ---- What is asked for
 
 const std::string before_options =
-    "usage: mesh_2 INPUT (--size S | --lfs K) [--min-size S] [--min-angle DEG] [--output FILE]...\n"
+    "usage: mesh_2 INPUT [--size [MARK:]S]... [--lfs K] [--min-size S] [--min-angle DEG] [--output FILE]...\n"
     "              [--voronoi FILE.svg] [--histogram FILE.svg] [--report FILE.json] [--seed N] [--threads N]\n"
-    "              [--time-limit SECONDS] [--max-vertices N] [--split-crossings] [--quiet]\n\n"
+    "              [--time-limit SECONDS] [--max-vertices N] [--tolerance T] [--split-crossings] [--quiet]\n\n"
     "Meshes the domain that a planar straight line graph encloses with large, well-shaped triangles. INPUT is a .poly "
     "or\n.node file of Triangle, an .edg file of CGAL, or an .obj file with lines. If a .poly has holes they bound "
-    "the\ndomain; else a region belongs to it when an odd number of outlines surrounds it.\n";
+    "the\ndomain; else a region belongs to it when an odd number of outlines surrounds it, or when the file names it. "
+    "Lengths are\nin the input's units, or with a trailing % in parts of its bounding box diagonal.\n";
 
 const std::string after_options =
     "Exit status: 0 if the mesh meets all criteria; 1 for bad usage or bad input, when no file is written; 2 if the "
@@ -46,9 +49,11 @@ const std::string after_options =
 struct Request : command_line::Files
 {
   mesh_2_program::Sizes sizes;
+  std::vector<std::string> size_texts; ///< as given
   std::string size_text; ///< "size 0.1" or "lfs 0.5", for titles
   std::string voronoi;
-  bool split_crossings = false;
+  mesh_2_program::Input_options input_options;
+  command_line::Length tolerance;
   weft::Mesh_options_2 options;
 };
 
@@ -56,10 +61,12 @@ void add_options(command_line::Options& options, Request& request)
 {
   auto& sizes = request.sizes;
   options.operands(request.inputs);
-  options.positive("--size", "S", sizes.size, "largest edge length, in the input's units");
+  options.texts("--size", "[MARK:]S", request.size_texts,
+                "largest edge length (default 5% without --lfs); after a mark, in regions with that mark\nonly, as in "
+                "2:0.1. A region's bound on areas in a .poly file counts, too");
   options.positive("--lfs", "K", sizes.lfs,
                    "edge lengths from the local feature size of the input, growing by at most K\nper unit of distance");
-  options.positive("--min-size", "S", sizes.min_size, "smallest edge length that --lfs asks for");
+  options.length("--min-size", "S", false, sizes.min_size, "smallest edge length that --lfs asks for");
   options.positive("--min-angle", "DEG", request.options.min_angle,
                    "smallest angle to refine for, up to 40 degrees, where the input allows it");
   add_outputs(options, request,
@@ -71,9 +78,29 @@ void add_options(command_line::Options& options, Request& request)
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   add_seed_threads_and_time(options, request.options);
   add_max_vertices(options, request.options);
-  options.flag("--split-crossings", request.split_crossings,
-               "split segments that cross or overlap, instead of refusing them");
+  options.length("--tolerance", "T", true, request.tolerance,
+                 "distance up to which points, or a point and a segment, count as touching (default 3e-10\nof the longer "
+                 "side of the bounding box); 0: exact");
+  options.flag("--split-crossings", request.input_options.split_crossings,
+               "split segments that cross, instead of refusing them");
   add_quiet(options, request);
+}
+
+void read_sizes(Request& request)
+{
+  bool has_general_size = false;
+  for (const std::string& text : request.size_texts) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) {
+      if (std::exchange(has_general_size, true)) throw Error("--size is given twice");
+      request.sizes.size = command_line::read_length("--size", text);
+    } else {
+      const int mark = command_line::read_integer("--size", text.substr(0, colon));
+      if (!request.sizes.size_of_mark.emplace(mark, command_line::read_length("--size", text.substr(colon + 1))).second)
+        throw Error("--size is given twice for the mark " + std::to_string(mark));
+    }
+    request.size_text += (request.size_text.empty() ? "size " : " ") + text;
+  }
 }
 
 /// What options mean together.
@@ -81,11 +108,13 @@ void check(const command_line::Options& options, Request& request)
 {
   check_single_input(request);
   check_files("mesh_2", request, mesh_2_program::is_mesh_filename, ".vtu, .mesh, .msh, .off or .svg");
+  read_sizes(request);
   const mesh_2_program::Sizes& sizes = request.sizes;
-  if (sizes.size > 0 && sizes.lfs > 0) throw Error("--size and --lfs exclude each other");
-  if (sizes.size == 0 && sizes.lfs == 0) throw Error("either --size or --lfs is needed");
-  if (sizes.min_size > 0 && sizes.lfs == 0) throw Error("--min-size goes with --lfs only");
-  request.size_text = sizes.lfs > 0 ? "lfs " + options.value("--lfs") : "size " + options.value("--size");
+  if (!request.size_texts.empty() && sizes.lfs > 0) throw Error("--size and --lfs exclude each other");
+  if (sizes.min_size.value > 0 && sizes.lfs == 0) throw Error("--min-size goes with --lfs only");
+  if (sizes.lfs > 0) request.size_text = "lfs " + options.value("--lfs");
+  if (request.size_text.empty()) request.size_text = "size 5% of the diagonal, by default";
+  if (options.has("--tolerance")) request.input_options.tolerance = request.tolerance;
   if (request.options.min_angle > 40) throw Error("--min-angle: more than 40 degrees can't be promised");
   request.options.check();
 }
@@ -95,10 +124,13 @@ void check(const command_line::Options& options, Request& request)
 std::unique_ptr<Domain> read_domain(const Request& request)
 {
   try {
-    return mesh_2_program::read_domain(request.inputs.front(), request.split_crossings);
+    auto domain = mesh_2_program::read_domain(request.inputs.front(), request.input_options);
+    for (const std::string& warning : domain->warnings())
+      command_line::complain("mesh_2", "warning: " + request.input() + ": " + warning);
+    return domain;
   } catch (const weft::Domain_error& error) {
     // Contacts between segments are the only fault that names two of them.
-    const bool may_be_split = !request.split_crossings && error.elements().size() == 2;
+    const bool may_be_split = !request.input_options.split_crossings && error.elements().size() == 2;
     throw Error(request.input() + ": " + error.what() + (may_be_split ? "; --split-crossings splits them" : ""));
   }
 }
@@ -169,7 +201,11 @@ Status mesh(const Request& request, Domain& domain, command_line::Output_files& 
   }
   files.commit();
   progress.bar().clear();
-  if (!request.quiet) std::cout << report << std::flush;
+  if (!request.quiet) {
+    std::cout << request.size_text << "\n" << report;
+    if (request.outputs.empty()) std::cout << "no mesh is written: --output FILE names one\n";
+    std::cout << std::flush;
+  }
   if (!missing.empty()) command_line::complain("mesh_2", missing);
   return missing.empty() ? complete : stopped_early;
 }

@@ -39,13 +39,14 @@ public:
     announced_.push_back(filename);
   }
 
-  /// Calls `write(name)` with the name to write to.
+  /// Calls `write(name)` with the name to write to. Devices and pipes are written to as they are, not replaced.
   /// \throws Error if that fails.
   template <class Write>
   void add(const std::string& filename, const Write& write)
   {
-    const std::string temporary = reserve(filename);
-    written_.emplace_back(temporary, filename);
+    const bool is_file = !std::filesystem::exists(filename) || std::filesystem::is_regular_file(filename);
+    const std::string temporary = is_file ? reserve(filename) : filename;
+    if (is_file) written_.emplace_back(temporary, filename);
     try {
       write(temporary);
     } catch (const std::exception& error) {

@@ -59,7 +59,7 @@ struct Case
   Pslg pslg;
   weft::Crossings crossings = weft::Crossings::refuse;
   weft::Mesh_options_2 options;
-  double size = 1;
+  double size = 1, tolerance = 0;
   int field = 0;
   std::string text;
 };
@@ -192,12 +192,13 @@ Outcome run(Case& c)
   Outcome outcome;
   Cdt cdt;
   try {
-    weft::insert_pslg(cdt, c.pslg, {c.crossings});
+    Pslg graph = weft::insert_pslg(cdt, c.pslg, {c.crossings, c.tolerance}).graph;
     weft::mark_domain(cdt, c.pslg);
+    if (c.tolerance > 0) c.pslg = std::move(graph);
   } catch (const weft::Error&) {
     return outcome;
   }
-  if (c.crossings == weft::Crossings::split) c.pslg = split_graph(cdt, c.pslg);
+  if (c.tolerance == 0 && c.crossings == weft::Crossings::split) c.pslg = split_graph(cdt, c.pslg);
   outcome.faults = mesh_faults(cdt, c.pslg);
   if (!outcome.faults.empty()) {
     outcome.faults = "already before meshing: " + outcome.faults;
@@ -223,7 +224,8 @@ struct Tally
 };
 
 /// Runs the cases with the given seeds, each with its own time bound.
-Tally fuzz(unsigned first, unsigned last)
+/// \param tolerance of `insert_pslg()`.
+Tally fuzz(unsigned first, unsigned last, double tolerance = 0)
 {
   constexpr double most_seconds = 10; // time limits of the cases are below half a second
   Watchdog watchdog(120);
@@ -231,6 +233,7 @@ Tally fuzz(unsigned first, unsigned last)
   for (unsigned seed = first; seed < last; ++seed) {
     watchdog.begin(seed);
     Case c = random_case(seed);
+    c.tolerance = tolerance;
     INFO(c.text);
     if (std::getenv("WEFT_FUZZ_VERBOSE")) std::fprintf(stderr, "%s\n", c.text.c_str());
     const auto start = std::chrono::steady_clock::now();
@@ -253,9 +256,19 @@ TEST_CASE("every random graph ends in an error of weft or a valid mesh")
   CHECK(tally.complete > 60);
 }
 
+TEST_CASE("random graphs whose close points are joined end in an error of weft or a valid mesh")
+{
+  const double tolerance = weft::Pslg_options().tolerance;
+  const Tally tally = fuzz(400, 500, tolerance);
+  CHECK(tally.meshes > 50);
+  CHECK(tally.complete > 15);
+}
+
 TEST_CASE("every one of many random graphs ends in an error of weft or a valid mesh", "[.nightly]")
 {
   const Tally tally = fuzz(1000, 7000);
   CHECK(tally.meshes > 3000);
   CHECK(tally.complete > 1000);
+  for (const double tolerance : {1e-12, weft::Pslg_options().tolerance, 1e-6, 1e-3})
+    CHECK(fuzz(7000, 8000, tolerance).meshes > 400);
 }

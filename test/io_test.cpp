@@ -508,6 +508,8 @@ TEST_CASE("a failing write is an error")
     CHECK_THROWS_AS(weft::IO::write_off("/dev/full", mesh.cdt), weft::File_error);
     CHECK_THROWS_AS(weft::IO::write_gmsh("/dev/full", mesh.cdt), weft::File_error);
     CHECK_THROWS_AS(weft::IO::write_svg("/dev/full", mesh.cdt), weft::File_error);
+    CHECK_THROWS_AS(weft::IO::write_medit("/dev/full", mesh.cdt), weft::File_error);
+    CHECK_THROWS_AS(weft::IO::write_vtu("/dev/full", mesh.cdt), weft::File_error);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -80,6 +81,99 @@ TEST_CASE("a complete mesh gives status 0 and every file that was asked for, and
   CHECK(number(report, "largest_ratio") <= 1);
 }
 
+TEST_CASE("lengths may be parts of the diagonal, and there is a default size, which is said")
+{
+  const Folder folder("lengths");
+  folder.write("square.poly", unit_square);
+  const Outcome by_default = folder.run("square.poly --output a.off");
+  CHECK(by_default.status == 0);
+  CHECK(contains(by_default.out, "size 5% of the diagonal, by default"));
+  CHECK(folder.run("square.poly --size 5% --output b.off").status == 0);
+  CHECK(folder.run("square.poly --size 0.07071067811865477 --output c.off").status == 0);
+  CHECK(folder.read("a.off") == folder.read("b.off"));
+  CHECK(folder.read("a.off") == folder.read("c.off"));
+  CHECK(folder.run("square.poly --lfs 1 --min-size 10% --output d.off").status == 0);
+  CHECK(triangles(folder.read("d.off")) < triangles(folder.read("a.off")));
+}
+
+TEST_CASE("a run without --output says that no mesh is written")
+{
+  const Folder folder("no_output");
+  folder.write("square.poly", unit_square);
+  CHECK(contains(folder.run("square.poly --size 0.3").out, "no mesh is written"));
+  CHECK(!contains(folder.run("square.poly --size 0.3 --output m.off").out, "no mesh is written"));
+}
+
+TEST_CASE("a full device is an error, whatever is written to it")
+{
+  if (!fs::exists("/dev/full")) return;
+  const Folder folder("full");
+  folder.write("square.poly", unit_square);
+  const auto run = [&](const std::string& arguments) { return folder.run("square.poly --size 0.3 " + arguments); };
+  for (const std::string arguments :
+       {"--output full.off", "--output full.vtu", "--output full.mesh", "--output full.msh", "--output full.svg",
+        "--voronoi full.svg", "--histogram full.svg", "--report full.json"}) {
+    const std::string name = arguments.substr(arguments.find(' ') + 1);
+    fs::create_symlink("/dev/full", fs::current_path() / "mesh_2_program_test_full" / name);
+    const Outcome outcome = run(arguments);
+    INFO(arguments << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(is_one_line(outcome.err));
+    CHECK(contains(outcome.err, name + ": writing failed"));
+    CHECK(folder.files() == Names{"square.poly", name});
+    fs::remove(fs::current_path() / "mesh_2_program_test_full" / name);
+  }
+  const Outcome standard_output = folder.run("square.poly --size 0.3", "sh -c '\"$0\" \"$@\" >/dev/full'");
+  CHECK(standard_output.status == 1);
+  CHECK(contains(standard_output.err, "standard output can't be written"));
+}
+
+TEST_CASE("what was joined is in the report, and points that name nothing are warned about")
+{
+  const Folder folder("notes");
+  // Two rectangles turned by 88 degrees, which touch along a part of a side; the common side differs by rounding.
+  const double c = std::cos(88 * std::acos(-1.) / 180), s = std::sin(88 * std::acos(-1.) / 180);
+  std::ostringstream file;
+  file.precision(17);
+  file << "8 2 0 0\n";
+  const double corners[8][2] = {{0, 0}, {3, 0}, {3, 2}, {0, 2}, {3, 0.4}, {4, 0.4}, {4, 1.2}, {3, 1.2}};
+  for (int i = 0; i < 8; ++i)
+    file << i << " " << c * corners[i][0] - s * corners[i][1] << " " << s * corners[i][0] + c * corners[i][1] << "\n";
+  file << "8 0\n0 0 1\n1 1 2\n2 2 3\n3 3 0\n4 4 5\n5 5 6\n6 6 7\n7 7 4\n0\n2\n"
+       << "0 " << c - s << " " << s + c << " 5 -1\n1 99 99 6 0.01\n";
+  folder.write("touch.poly", file.str());
+  const Outcome outcome = folder.run("touch.poly --size 0.2 --output m.off --report r.json");
+  INFO(outcome.err);
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.err, "warning: touch.poly: the point of region 1, counted from 0, lies outside"));
+  CHECK(contains(outcome.err, "1 part of the domain has no region"));
+  CHECK(contains(outcome.out, "close to it"));
+  CHECK(contains(folder.read("r.json"), "close to it"));
+  CHECK(contains(folder.read("r.json"), "lies outside of everything"));
+  CHECK(triangles(folder.read("m.off")) < 700);
+  CHECK(folder.run("touch.poly --size 0.2 --tolerance 1e-10% --output n.off").status == 0);
+}
+
+TEST_CASE("sizes by mark, and bounds on areas in the file")
+{
+  const Folder folder("regions");
+  const std::string plate = "8 2 0 0\n1 0 0\n2 10 0\n3 10 10\n4 0 10\n5 4 4\n6 6 4\n7 6 6\n8 4 6\n"
+                            "8 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n5 5 6\n6 6 7\n7 7 8\n8 8 5\n0\n";
+  folder.write("plain.poly", plate + "2\n1 1 1 1\n2 5 5 2 -1\n");
+  folder.write("areas.poly", plate + "2\n1 1 1 1 -1\n2 5 5 2 0.01\n");
+  std::vector<std::size_t> counts;
+  for (const char* arguments : {"plain.poly --size 1", "plain.poly --size 1 --size 2:0.15", "areas.poly --size 1",
+                                "plain.poly --size 2:1.5%"}) {
+    const Outcome outcome = folder.run(std::string(arguments) + " --output m.off --report r.json");
+    INFO(arguments << outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err == "");
+    CHECK(number(folder.read("r.json"), "area") == Approx(100)); // the inclusion is part of it
+    counts.push_back(triangles(folder.read("m.off")));
+  }
+  for (std::size_t i = 1; i < counts.size(); ++i) CHECK(counts[i] > counts[0] + 200);
+}
+
 TEST_CASE("a quiet run prints nothing")
 {
   const Folder folder("quiet");
@@ -97,9 +191,9 @@ TEST_CASE("help and version go to stdout with status 0")
   const Outcome help = folder.run("--help"), version = folder.run("--version");
   CHECK(help.status == 0);
   CHECK(help.err == "");
-  CHECK(contains(help.out, "usage: mesh_2 INPUT (--size S | --lfs K) [--min-size S] [--min-angle DEG]"));
+  CHECK(contains(help.out, "usage: mesh_2 INPUT [--size [MARK:]S]... [--lfs K] [--min-size S] [--min-angle DEG]"));
   for (const char* option : {"--output", "--voronoi", "--histogram", "--report", "--seed", "--threads", "--time-limit",
-                             "--max-vertices", "--split-crossings", "--quiet"})
+                             "--max-vertices", "--tolerance", "--split-crossings", "--quiet"})
     CHECK(contains(help.out, std::string("\n  ") + option));
   CHECK(version.status == 0);
   CHECK(contains(version.out, WEFT_VERSION));
@@ -113,28 +207,34 @@ TEST_CASE("bad usage gives status 1, one line that says what is wrong, and no ou
   };
   const Case cases[] = {{"", "no input file"},
                         {"--size 0.1", "no input file"},
-                        {"square.poly", "either --size or --lfs"},
                         {"square.poly square.poly --size 1", "more than one input file"},
                         {"square.poly --size 0.1 --lfs 0.1", "exclude each other"},
                         {"square.poly --size 0.1 --size 0.2", "--size is given twice"},
                         {"square.poly --size 0.1 --min-size 0.1", "--min-size goes with --lfs"},
+                        {"square.poly --size 0.1 --size 0.2%", "--size is given twice"},
+                        {"square.poly --size 1:0.1 --size 1:0.2", "--size is given twice for the mark 1"},
+                        {"square.poly --size x:0.1", "--size: 'x' is not a whole number"},
+                        {"square.poly --size 1:", "--size: '' is not a positive length"},
+                        {"square.poly --size 7:0.1", "no region has the mark 7"},
+                        {"square.poly --size 0.1 --tolerance -1", "--tolerance: '-1' is not a positive length"},
+                        {"square.poly --size 0.1 --tolerance 50%", "tolerance must lie in"},
                         {"square.poly --size 0.1 --colour red", "unknown option '--colour'"},
                         {"square.poly --size 0.1 -q", "unknown option '-q'"},
                         {"square.poly --size", "--size needs a value"},
                         {"square.poly --size --quiet", "--size needs a value"},
                         {"square.poly --size=", "--size needs a value"},
                         {"square.poly --size 0.1 --quiet=yes", "--quiet takes no value"},
-                        {"square.poly --size 0", "--size: '0' is not a positive number"},
-                        {"square.poly --size -1", "--size: '-1' is not a positive number"},
-                        {"square.poly --size nan", "'nan' is not a positive number"},
-                        {"square.poly --size inf", "'inf' is not a positive number"},
-                        {"square.poly --size 1e999", "'1e999' is not a positive number"},
-                        {"square.poly --size 0.1x", "'0.1x' is not a positive number"},
-                        {"square.poly --size 0,1", "'0,1' is not a positive number"},
-                        {"square.poly --size ' 0.1'", "is not a positive number"},
+                        {"square.poly --size 0", "--size: '0' is not a positive length"},
+                        {"square.poly --size -1", "--size: '-1' is not a positive length"},
+                        {"square.poly --size nan", "'nan' is not a positive length"},
+                        {"square.poly --size inf", "'inf' is not a positive length"},
+                        {"square.poly --size 1e999", "'1e999' is not a positive length"},
+                        {"square.poly --size 0.1x", "'0.1x' is not a positive length"},
+                        {"square.poly --size 0,1", "'0,1' is not a positive length"},
+                        {"square.poly --size ' 0.1'", "is not a positive length"},
                         {"square.poly --size ''", "--size needs a value"},
                         {"square.poly --lfs 0", "--lfs: '0' is not a positive number"},
-                        {"square.poly --lfs 0.5 --min-size -2", "--min-size: '-2' is not a positive number"},
+                        {"square.poly --lfs 0.5 --min-size -2", "--min-size: '-2' is not a positive length"},
                         {"square.poly --size 0.1 --min-angle 41", "--min-angle"},
                         {"square.poly --size 0.1 --min-angle x", "--min-angle: 'x' is not a positive number"},
                         {"square.poly --size 0.1 --seed -1", "--seed: '-1' is not a whole number"},

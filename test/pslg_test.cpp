@@ -88,11 +88,11 @@ struct Refusal
   Indices elements, vertices;
   std::string text;
 
-  explicit Refusal(const Pslg& pslg, weft::Crossings crossings = weft::Crossings::refuse)
+  explicit Refusal(const Pslg& pslg, const weft::Pslg_options& options = {})
   {
     Cdt cdt;
     try {
-      weft::insert_pslg(cdt, pslg, {crossings});
+      weft::insert_pslg(cdt, pslg, options);
       FAIL("was not refused");
     } catch (const weft::Domain_error& error) {
       elements = error.elements();
@@ -102,6 +102,8 @@ struct Refusal
     CHECK(cdt.number_of_vertices() == 0);
   }
 };
+
+const weft::Pslg_options exact = {weft::Crossings::refuse, 0};
 
 Pslg random_segments(unsigned seed, std::size_t n)
 {
@@ -194,7 +196,10 @@ TEST_CASE("messages number points and segments as their file does")
   pslg.segments[4] = {0, 9};
   CHECK(Refusal(pslg).text == "segment 5, counted from 1, refers to point 10, which doesn't exist");
   pslg.segments[4] = {2, 2};
-  CHECK(Refusal(pslg).text == "segment 5, counted from 1, has length zero");
+  pslg.segments.pop_back();
+  Cdt cdt;
+  CHECK(weft::insert_pslg(cdt, pslg).changes.notes ==
+        std::vector<std::string>{"segment 5, counted from 1, has length zero and is left out"});
   pslg.points[3] = Point(0, std::numeric_limits<double>::infinity());
   CHECK(Refusal(pslg).text == "point 4, counted from 1, has a coordinate that is not finite");
 }
@@ -208,7 +213,12 @@ TEST_CASE("segments that cross by less than rounding are refused")
   pslg.points.emplace_back(-0.5, 0.5);
   pslg.segments.push_back({0, 2});
   pslg.segments.push_back({4, 5});
-  CHECK(Refusal(pslg).elements == Indices{4, 5});
+  CHECK(Refusal(pslg, exact).elements == Indices{4, 5});
+  Cdt joined; // within the tolerance it is a T junction
+  const auto inserted = weft::insert_pslg(joined, pslg);
+  check_structure(joined);
+  CHECK(joined.number_of_vertices() == 6);
+  CHECK(inserted.changes.split_segments == std::vector<std::array<std::size_t, 2>>{{4, 4}});
   pslg.points[4] = Point(0.3, 0.3);
   Cdt cdt;
   weft::insert_pslg(cdt, pslg); // exactly on it: a T junction
@@ -216,20 +226,20 @@ TEST_CASE("segments that cross by less than rounding are refused")
   CHECK(cdt.number_of_vertices() == 6);
 }
 
-TEST_CASE("overlapping segments are refused by name")
+TEST_CASE("overlapping segments are refused by name where there is no tolerance")
 {
   Pslg pslg = square();
   pslg.points.emplace_back(0, -1);
   SECTION("from a common end")
   {
     pslg.segments.push_back({0, 4});
-    CHECK(Refusal(pslg).elements == Indices{0, 4});
+    CHECK(Refusal(pslg, exact).elements == Indices{0, 4});
   }
   SECTION("one reaching beyond the other")
   {
     pslg.points.emplace_back(2, -1);
     pslg.segments.push_back({5, 4});
-    const Refusal refusal(pslg);
+    const Refusal refusal(pslg, exact);
     CHECK(refusal.elements == Indices{0, 4});
     CHECK(refusal.text.find("overlap") != std::string::npos);
   }
@@ -237,7 +247,7 @@ TEST_CASE("overlapping segments are refused by name")
   {
     pslg.points.emplace_back(0.5, -1);
     pslg.segments.push_back({5, 4});
-    CHECK(Refusal(pslg).elements == Indices{0, 4});
+    CHECK(Refusal(pslg, exact).elements == Indices{0, 4});
   }
 }
 

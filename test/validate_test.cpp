@@ -52,7 +52,7 @@ Pslg archipelago()
 Cdt insert(const Pslg& pslg, weft::Crossings crossings = weft::Crossings::refuse)
 {
   Cdt cdt;
-  weft::insert_pslg(cdt, pslg, {crossings});
+  weft::insert_pslg(cdt, pslg, {crossings, 0});
   weft::mark_domain(cdt, pslg);
   return cdt;
 }

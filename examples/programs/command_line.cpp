@@ -175,11 +175,7 @@ void Options::length(const std::string& name, const std::string& value_name, boo
                      const std::string& help)
 {
   parser_->add(name, value_name, help, [name, may_be_zero, &length](const std::string& value) {
-    const bool is_relative = value.back() == '%';
-    const auto read = parse_number<double>(value.substr(0, value.size() - (is_relative ? 1 : 0)));
-    if (!read || !std::isfinite(*read) || !(*read > 0 || (may_be_zero && *read == 0)))
-      refuse(name, value, "a positive length, or one in % of the bounding box diagonal");
-    length = {*read, is_relative};
+    length = read_length(name, value, may_be_zero);
   });
 }
 
@@ -230,6 +226,22 @@ std::string Options::value(const std::string& name) const
   return has(name) ? parser_->app.get_option(name)->results().front() : std::string();
 }
 
+Length read_length(const std::string& option, const std::string& text, bool may_be_zero)
+{
+  const bool is_relative = !text.empty() && text.back() == '%';
+  const auto read = parse_number<double>(text.substr(0, text.size() - (is_relative ? 1 : 0)));
+  if (!read || !std::isfinite(*read) || !(*read > 0 || (may_be_zero && *read == 0)))
+    refuse(option, text, "a positive length, or one in % of the bounding box diagonal");
+  return {*read, is_relative};
+}
+
+int read_integer(const std::string& option, const std::string& text)
+{
+  const auto read = parse_number<int>(text);
+  if (!read) refuse(option, text, "a whole number");
+  return *read;
+}
+
 bool has_extension(const std::string& filename, const std::string& wanted)
 {
   std::string extension = std::filesystem::path(filename).extension().string();
@@ -248,9 +260,10 @@ int run_program(Options& options, const std::function<Status()>& run, int argc, 
 {
   try {
     const std::string answer = options.parse(argc, argv);
-    if (answer.empty()) return run();
     std::cout << answer;
-    return complete;
+    const Status status = answer.empty() ? run() : complete;
+    if (!std::cout.flush()) throw Error("standard output can't be written; is the disk full?");
+    return status;
   } catch (const std::bad_alloc&) {
     complain(options.program(), "out of memory");
   } catch (const std::exception& error) {

@@ -15,6 +15,7 @@
 #define WEFT_MAKE_MESH_2_H
 
 #include <weft/options.h>
+#include <weft/planar/run/keep_layers_2.h>
 #include <weft/planar/run/Planar_mesher_2.h>
 #include <weft/planar/run/Planar_requirements_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -31,11 +32,13 @@ namespace weft {
 /// Vertices of `cdt` at the call are input vertices: they stay exactly where they are, and every constraint becomes a
 /// chain of constrained edges. The domain is the set of faces with `is_in_domain()`; if there is none, it is marked by
 /// nesting parity. Afterwards Steiner vertices have `constraint()` >= 0 on constraints, else `free_vertex`; vertices
-/// have running ids. On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
+/// have running ids. Faces with CGAL's `info()` have that of the input's face in which they lie (Input_faces_2, also for
+/// other data). On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
 ///
 /// Time is about linear in the number of vertices; the result depends on nothing but the arguments, not on threads.
-/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Mesh_triangulation_2.h. Neither
-///         `Triangulation_hierarchy_2` nor `Constrained_triangulation_plus_2`, whose layers the mesher doesn't keep.
+/// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Mesh_triangulation_2.h, or a
+///         `Constrained_triangulation_plus_2` of it, whose polylines get the Steiner points. No
+///         `Triangulation_hierarchy_2`, whose levels the mesher doesn't keep.
 /// \param sizing callable, point -> largest edge length in the input's units; or a number, which holds everywhere.
 /// \throws Option_error for options out of range, and when the sizing field returns anything but positive numbers.
 /// \throws Domain_error when there is no domain.
@@ -46,7 +49,10 @@ Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& 
     return make_mesh_2(cdt, Uniform_sizing<>(sizing), options);
   } else if constexpr (internal::Planar_requirements_2<Cdt, Sizing>::holds) {
     options.check();
-    return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, false).mesh();
+    return internal::keep_layers_2(cdt, [&](auto& triangulation) {
+      using Triangulation = std::remove_reference_t<decltype(triangulation)>;
+      return internal::Planar_mesher_2<Triangulation, Sizing>(triangulation, sizing, options, false).mesh();
+    });
   } else {
     internal::Planar_requirements_2<Cdt, Sizing>::complain();
     return {};
@@ -64,7 +70,10 @@ Mesh_report_2 relax_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& opti
     return relax_2(cdt, Uniform_sizing<>(sizing), options);
   } else if constexpr (internal::Planar_requirements_2<Cdt, Sizing>::holds) {
     options.check();
-    return internal::Planar_mesher_2<Cdt, Sizing>(cdt, sizing, options, true).relax();
+    return internal::keep_layers_2(cdt, [&](auto& triangulation) {
+      using Triangulation = std::remove_reference_t<decltype(triangulation)>;
+      return internal::Planar_mesher_2<Triangulation, Sizing>(triangulation, sizing, options, true).relax();
+    });
   } else {
     internal::Planar_requirements_2<Cdt, Sizing>::complain();
     return {};

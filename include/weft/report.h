@@ -39,6 +39,7 @@ struct Mesh_report_2
 
   Stop_reason stop_reason = Stop_reason::criteria_met;
   std::vector<std::pair<std::string, double>> stage_seconds; ///< wall time by stage, in order
+  std::vector<std::string> notes; ///< about the input, for the report's readers: the mesher leaves it empty
 
   std::size_t steiner() const { return constraint_steiner + interior_steiner; }
   /// Whether every requested criterion holds.
@@ -53,8 +54,9 @@ WEFT_COLD inline std::ostream& operator<<(std::ostream& out, const Mesh_report_2
       << " on constraints, " << r.interior_steiner << " inside), " << counted(r.triangles, "triangle", "triangles")
       << "\n"
       << "angles " << r.smallest_angle << " to " << r.largest_angle << " degrees, largest edge / size "
-      << r.largest_ratio << "\n"
-      << name(r.stop_reason);
+      << r.largest_ratio << "\n";
+  for (const std::string& note : r.notes) out << note << "\n";
+  out << name(r.stop_reason);
   if (r.oversized) out << ", " << counted(r.oversized, "element", "elements") << " too large";
   if (r.below_min_angle)
     out << ", " << counted(r.below_min_angle, "triangle", "triangles") << " below the smallest angle asked for";

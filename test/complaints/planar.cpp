@@ -15,6 +15,8 @@ void mistake()
   weft::make_mesh_2(cdt, 1, weft::Mesh_options_2());
   weft::relax_2(cdt, 0.1f);
   weft::make_mesh_2(cdt, [](const K::Point_2& p) { return p.x() + 1; });
+  CGAL::Constrained_triangulation_plus_2<Cdt> polylines;
+  weft::make_mesh_2(polylines, 0.1);
 #endif
 
 #if CASE == 2 // weft: the triangulation lacks weft's bases
@@ -22,13 +24,13 @@ void mistake()
   weft::make_mesh_2(cdt, 0.1);
 #endif
 
-#if CASE == 3 // weft: Triangulation_hierarchy_2 and Constrained_triangulation_plus_2 would lose their layers
+#if CASE == 3 // weft: Triangulation_hierarchy_2 would lose its layers
   CGAL::Triangulation_hierarchy_2<Cdt> cdt;
   weft::make_mesh_2(cdt, 0.1);
 #endif
 
-#if CASE == 4 // weft: Triangulation_hierarchy_2 and Constrained_triangulation_plus_2 would lose their layers
-  CGAL::Constrained_triangulation_plus_2<Cdt> cdt;
+#if CASE == 4 // weft: Triangulation_hierarchy_2 would lose its layers
+  CGAL::Constrained_triangulation_plus_2<CGAL::Triangulation_hierarchy_2<Cdt>> cdt;
   weft::relax_2(cdt, weft::Uniform_sizing<>(0.1));
 #endif
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -63,18 +64,31 @@ void draw_voronoi(const std::string& filename, const Cdt& cdt, const std::string
 class Triangulated_domain : public Domain
 {
 public:
-  Triangulated_domain(const Pslg& pslg, bool split_crossings)
+  Triangulated_domain(const Pslg& pslg, const Input_options& given)
   {
-    const auto crossings = split_crossings ? weft::Crossings::split : weft::Crossings::refuse;
-    tags_ = weft::insert_pslg(cdt_, pslg, {crossings}).tags;
-    weft::mark_domain(cdt_, pslg);
+    CGAL::Bbox_2 box;
+    for (const K::Point_2& p : pslg.points) box += p.bbox();
+    const double width = box.xmax() - box.xmin(), height = box.ymax() - box.ymin();
+    diagonal_ = std::hypot(width, height);
+    weft::Pslg_options options;
+    if (given.split_crossings) options.crossings = weft::Crossings::split;
+    if (given.tolerance) options.tolerance = given.tolerance->in(diagonal_) / std::max(width, height);
+    auto inserted = weft::insert_pslg(cdt_, pslg, options);
+    tags_ = std::move(inserted.tags);
+    notes_ = std::move(inserted.changes.notes);
+    warnings_ = weft::mark_domain(cdt_, pslg).warnings;
+    notes_.insert(notes_.end(), warnings_.begin(), warnings_.end());
   }
+
+  const std::vector<std::string>& warnings() const override { return warnings_; }
 
   weft::Mesh_report_2 mesh(const Sizes& sizes, const weft::Mesh_options_2& options, bool keeps_input) override
   {
-    sizing_ = sizes.size > 0 ? uniform_sizing(sizes.size) : lfs_sizing(graph_of(cdt_), sizes.lfs, sizes.min_size);
+    sizing_ = sizing(sizes);
     if (keeps_input) input_ = cdt_;
-    return sizing_->make_mesh(cdt_, options);
+    weft::Mesh_report_2 report = sizing_->make_mesh(cdt_, options);
+    report.notes = notes_;
+    return report;
   }
 
   weft::Angle_histogram angles() const override
@@ -100,8 +114,22 @@ public:
   }
 
 private:
+  std::unique_ptr<Sizing> sizing(const Sizes& sizes) const
+  {
+    if (sizes.lfs > 0) return lfs_sizing(graph_of(cdt_), sizes.lfs, sizes.min_size.in(diagonal_));
+    const bool has_areas = std::any_of(tags_.regions.begin(), tags_.regions.end(),
+                                       [](const auto& region) { return region.max_area > 0; });
+    const double size = sizes.size.in(diagonal_);
+    if (sizes.size_of_mark.empty() && !has_areas) return uniform_sizing(size);
+    std::map<int, double> size_of_mark;
+    for (const auto& [mark, length] : sizes.size_of_mark) size_of_mark[mark] = length.in(diagonal_);
+    return region_sizing(cdt_, tags_, size, size_of_mark);
+  }
+
   Cdt cdt_, input_;
   weft::Mesh_tags_2<K> tags_;
+  std::vector<std::string> notes_, warnings_;
+  double diagonal_ = 0;
   std::unique_ptr<Sizing> sizing_;
 };
 
@@ -112,9 +140,9 @@ bool is_mesh_filename(const std::string& filename)
   return weft::IO::is_mesh_filename(filename);
 }
 
-std::unique_ptr<Domain> read_domain(const std::string& filename, bool split_crossings)
+std::unique_ptr<Domain> read_domain(const std::string& filename, const Input_options& options)
 {
-  return std::make_unique<Triangulated_domain>(weft::IO::read_pslg<K>(filename), split_crossings);
+  return std::make_unique<Triangulated_domain>(weft::IO::read_pslg<K>(filename), options);
 }
 
 } // namespace mesh_2_program

@@ -5,22 +5,36 @@
 #ifndef WEFT_EXAMPLES_PROGRAMS_MESH_2_DOMAIN_H
 #define WEFT_EXAMPLES_PROGRAMS_MESH_2_DOMAIN_H
 
+#include "../../command_line.h"
+
 #include <weft/IO/write_angle_histogram_svg.h>
 #include <weft/options.h>
 #include <weft/report.h>
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace mesh_2_program {
 
-/// Edge lengths that are asked for, in the input's units: at most `size`, or by the local feature size if that is 0.
+/// Edge lengths that are asked for: by the local feature size if `lfs` isn't 0, else at most `size`.
 struct Sizes
 {
-  double size = 0;
-  double lfs = 0, min_size = 0; ///< growth per unit of distance, and smallest length
+  command_line::Length size{5, true};
+  std::map<int, command_line::Length> size_of_mark; ///< instead, in regions with a mark
+  double lfs = 0;                                   ///< growth per unit of distance
+  command_line::Length min_size;
+};
+
+/// How a graph is read.
+struct Input_options
+{
+  bool split_crossings = false;
+  std::optional<command_line::Length> tolerance; ///< see weft::Pslg_options
 };
 
 /// What a planar straight line graph encloses, and its mesh once `mesh()` has been called.
@@ -29,6 +43,10 @@ class Domain
 public:
   virtual ~Domain() = default;
 
+  /// What is odd about the points of holes and regions.
+  virtual const std::vector<std::string>& warnings() const = 0;
+
+  /// \returns the report, with notes about the input.
   /// \param keeps_input whether `reference_angles()` is going to be called.
   /// \throws weft::Domain_error for sizes that the input doesn't allow.
   virtual weft::Mesh_report_2 mesh(const Sizes& sizes, const weft::Mesh_options_2& options, bool keeps_input) = 0;
@@ -46,9 +64,8 @@ public:
 bool is_mesh_filename(const std::string& filename);
 
 /// Reads a graph and finds what it encloses.
-/// \param split_crossings whether to split segments that cross or overlap.
 /// \throws weft::File_error if the file can't be read, weft::Domain_error if it doesn't describe a domain.
-std::unique_ptr<Domain> read_domain(const std::string& filename, bool split_crossings);
+std::unique_ptr<Domain> read_domain(const std::string& filename, const Input_options& options);
 
 } // namespace mesh_2_program
 

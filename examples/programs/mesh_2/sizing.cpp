@@ -6,6 +6,7 @@
 
 #include <weft/make_mesh_2.h>
 #include <weft/planar/sizing/Lfs_sizing_2.h>
+#include <weft/planar/sizing/Region_sizing_2.h>
 
 #include <utility>
 
@@ -44,6 +45,13 @@ std::unique_ptr<Sizing> uniform_sizing(double size)
 std::unique_ptr<Sizing> lfs_sizing(const Pslg& graph, double k, double min_size)
 {
   return std::make_unique<Sizing_by<weft::Lfs_sizing_2<K>>>(weft::Lfs_sizing_2<K>(graph, k, min_size));
+}
+
+std::unique_ptr<Sizing> region_sizing(const Cdt& cdt, const weft::Mesh_tags_2<K>& tags, double size,
+                                      const std::map<int, double>& size_of_mark)
+{
+  using Field = weft::Region_sizing_2<Cdt>;
+  return std::make_unique<Sizing_by<Field>>(Field(cdt, tags, size, size_of_mark));
 }
 
 } // namespace mesh_2_program

@@ -6,6 +6,7 @@
 #define WEFT_EXAMPLES_PROGRAMS_MESH_2_SIZING_H
 
 #include <weft/options.h>
+#include <weft/planar/graph/Constraint_markers.h>
 #include <weft/planar/graph/Pslg_2.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -15,6 +16,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 
 namespace mesh_2_program {
@@ -37,6 +39,9 @@ public:
 std::unique_ptr<Sizing> uniform_sizing(double size);
 /// \throws weft::Domain_error where features of the graph meet without sharing a point.
 std::unique_ptr<Sizing> lfs_sizing(const Pslg& graph, double k, double min_size);
+/// \throws weft::Option_error for a mark that no region has.
+std::unique_ptr<Sizing> region_sizing(const Cdt& cdt, const weft::Mesh_tags_2<K>& tags, double size,
+                                      const std::map<int, double>& size_of_mark);
 
 } // namespace mesh_2_program
 

@@ -3,7 +3,7 @@
 // Reads the .poly and .node files of Shewchuk's mesh generator Triangle ("Triangle: Engineering a 2D Quality Mesh
 // Generator and Delaunay Triangulator", 1996): points, segments, holes and regions, with their markers. Numbering
 // starts at 0 or 1, whichever the first point has. A .poly file with no points takes them from the .node file of the
-// same name. Attributes of points and area bounds of regions are checked and dropped.
+// same name. Attributes of points are checked and dropped.
 
 #ifndef WEFT_IO_READ_POLY_H
 #define WEFT_IO_READ_POLY_H
@@ -102,9 +102,9 @@ void read_region_section(Line_reader& in, Pslg_2<K>& pslg)
     const double x = in.number("x"), y = in.number("y"), attribute = in.number("the attribute of the region");
     if (attribute != std::floor(attribute) || std::abs(attribute) > std::numeric_limits<int>::max())
       in.fail("the attribute of a region should be an integer");
-    if (!in.at_end_of_line()) in.number("the area bound");
+    const double area = in.at_end_of_line() ? 0 : in.number("the area bound");
     in.require_end_of_line();
-    pslg.regions.push_back({typename K::Point_2(x, y), static_cast<int>(attribute)});
+    pslg.regions.push_back({typename K::Point_2(x, y), static_cast<int>(attribute), area > 0 ? area : 0.});
   }
 }
 

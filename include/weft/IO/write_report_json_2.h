@@ -59,6 +59,7 @@ inline Json to_json(const Mesh_report_2& r)
           {"flips", r.flips},
           {"moves", r.moves},
           {"put_back", r.put_back},
+          {"notes", r.notes},
           {"polished", r.polished},
           {"stages", stages_json(r.stage_seconds)}};
 }

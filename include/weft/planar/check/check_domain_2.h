@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Whether the right faces are in the domain: those that nesting parity or the graph's holes put there, and of the right
-// area.
+// Whether the right faces are in the domain: those that nesting parity or the graph's holes and its regions put there,
+// and of the right area.
 
 #ifndef WEFT_PLANAR_CHECK_CHECK_DOMAIN_2_H
 #define WEFT_PLANAR_CHECK_CHECK_DOMAIN_2_H
@@ -43,20 +43,26 @@ Validity_2 compare_flags(const Cdt& cdt, const Face_components<Cdt>& components,
 }
 
 template <class Cdt>
-Validity_2 check_parity(const Cdt& cdt)
+std::vector<char> odd_levels(const Cdt& cdt, const Face_components<Cdt>& components)
 {
-  const auto components = face_components(cdt);
   std::vector<char> in_domain;
   for (const int level : nesting_levels(cdt, components)) in_domain.push_back(level % 2 == 1);
-  return compare_flags(cdt, components, in_domain);
+  return in_domain;
 }
 
-template <class Cdt, class Points>
-Validity_2 check_holes(const Cdt& cdt, const Points& holes)
+/// What the graph's holes and regions, or else nesting parity, put into the domain.
+template <class Cdt, class K>
+Validity_2 check_flags(const Cdt& cdt, const Pslg_2<K>& pslg)
 {
   const auto components = face_components(cdt);
-  std::vector<char> in_domain(as_index(components.count), 1);
-  for (const auto& p : holes) in_domain[as_index(components.number[cdt.locate(p)])] = 0;
+  std::vector<char> in_domain = pslg.holes.empty() ? odd_levels(cdt, components)
+                                                   : std::vector<char>(as_index(components.count), 1);
+  const auto put = [&](const typename K::Point_2& p, char value) {
+    const auto face = cdt.locate(p);
+    if (!is_on_constraint(cdt, p, face)) in_domain[as_index(components.number[face])] = value;
+  };
+  for (const auto& region : pslg.regions) put(region.point, 1);
+  for (const auto& p : pslg.holes) put(p, 0);
   in_domain[0] = 0;
   return compare_flags(cdt, components, in_domain);
 }
@@ -88,7 +94,7 @@ void check_area(const Cdt& cdt, const Pslg_2<K>& pslg, Validity_2& validity)
 {
   Mesh_triangulation_2<K> input;
   try {
-    insert_pslg(input, pslg, {Crossings::split});
+    insert_pslg(input, pslg, {Crossings::split, 0});
     mark_domain(input, pslg);
   } catch (const Domain_error& error) {
     validity.add(Fault_kind::domain, std::string("the input has no domain: ") + error.what());
@@ -120,18 +126,19 @@ void check_area(const Cdt& cdt, const Pslg_2<K>& pslg, Validity_2& validity)
 template <class Cdt>
 Validity_2 check_domain_2(const Cdt& cdt)
 {
-  return internal::check_parity(cdt);
+  const auto components = internal::face_components(cdt);
+  return internal::compare_flags(cdt, components, internal::odd_levels(cdt, components));
 }
 
 /// Checks that the faces in the domain are those that the graph describes, by its holes if it has any, else by nesting
-/// parity; and that their area is that of the graph's own triangulation, up to the rounding of vertices on segments.
+/// parity, and by its regions; and that their area is that of the graph's own triangulation, up to the rounding of vertices on segments.
 /// O(n log n) time. Structure and orientation must be sound.
 template <class Cdt, class K>
 Validity_2 check_domain_2(const Cdt& cdt, const Pslg_2<K>& pslg)
 {
   Validity_2 validity;
   internal::check_area(cdt, pslg, validity);
-  validity += pslg.holes.empty() ? internal::check_parity(cdt) : internal::check_holes(cdt, pslg.holes);
+  validity += internal::check_flags(cdt, pslg);
   return validity;
 }
 

@@ -48,7 +48,7 @@ struct Triangulated_outline_2
   /// \throws Domain_error as `insert_pslg()`.
   std::size_t triangulate()
   {
-    tags = insert_pslg(triangulation, graph.pslg).tags;
+    tags = insert_pslg(triangulation, graph.pslg, {Crossings::refuse, 0}).tags;
     return mark();
   }
 

@@ -16,8 +16,6 @@
 
 namespace CGAL {
 template <class Tr>
-class Constrained_triangulation_plus_2;
-template <class Tr>
 class Triangulation_hierarchy_2;
 } // namespace CGAL
 
@@ -34,8 +32,6 @@ private:
   template <class Gt, class Tds, class Itag>
   static std::true_type constrained_delaunay(const CGAL::Constrained_Delaunay_triangulation_2<Gt, Tds, Itag>*);
   static std::false_type constrained_delaunay(const void*);
-  template <class Tr>
-  static std::true_type layered(const CGAL::Constrained_triangulation_plus_2<Tr>*);
   template <class Tr>
   static std::true_type layered(const CGAL::Triangulation_hierarchy_2<Tr>*);
   static std::false_type layered(const void*);
@@ -63,8 +59,7 @@ public:
   {
     static_assert(is_layered || is_constrained_delaunay,
                   "weft: not a CGAL::Constrained_Delaunay_triangulation_2; use weft::Mesh_triangulation_2<K>");
-    static_assert(!is_layered, "weft: Triangulation_hierarchy_2 and Constrained_triangulation_plus_2 would lose their "
-                               "layers; use weft::Mesh_triangulation_2<K>");
+    static_assert(!is_layered, "weft: Triangulation_hierarchy_2 would lose its layers; use weft::Mesh_triangulation_2<K>");
     static_assert(
         is_layered || !is_constrained_delaunay || has_bases,
         "weft: the triangulation lacks weft's bases; use weft::Mesh_triangulation_2<K>, or vertices and faces "
