@@ -14,9 +14,12 @@
 #define WEFT_SPATIAL_DOMAIN_POLYHEDRAL_ORACLE_3_H
 
 #include <weft/errors.h>
+#include <weft/internal/boxes/coordinates_3.h>
 #include <weft/internal/boxes/farthest_points_3.h>
+#include <weft/internal/boxes/grid_points_3.h>
 #include <weft/spatial/domain/Acute_edges_3.h>
 #include <weft/spatial/domain/Crease_network_3.h>
+#include <weft/spatial/domain/Domain_shape_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
 #include <weft/spatial/domain/Patched_surface_3.h>
 #include <weft/spatial/domain/Salient_features_3.h>
@@ -27,6 +30,8 @@
 #include <CGAL/Bbox_3.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -192,6 +197,65 @@ public:
   std::vector<Surface_hit_3<K>> shell_seeds(int shell, std::size_t n) const
   {
     return seeds(n, [&](std::size_t t) { return complex_.shells[t] == shell; });
+  }
+
+  /// Volumes, areas, components and Euler characteristics of the subdomains. O(n log n).
+  Domain_shape_3 shape() const
+  {
+    std::vector<internal::Boundary_facet_3> boundaries;
+    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
+      const auto& v = complex_.triangles[t];
+      const auto [behind, before] =
+          complex_.sides.empty() ? std::make_pair(1, 0) : complex_.sides[static_cast<std::size_t>(complex_.patches[t])];
+      if (behind != 0) boundaries.push_back({behind, v});
+      if (before != 0) boundaries.push_back({before, {v[0], v[2], v[1]}});
+    }
+    return internal::shape_of_boundaries(complex_.points, boundaries);
+  }
+
+  /// Calls `visit(point, patch, unit normal)` for the corners of every triangle and points between them no farther
+  /// apart than that, up to a million a triangle.
+  template <class Visit>
+  void visit_samples(double spacing, const Visit& visit) const
+  {
+    using internal::Xyz_3;
+    std::vector<char> is_visited(complex_.points.size(), false);
+    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
+      const auto& v = complex_.triangles[t];
+      const std::array<Xyz_3, 3> corners{{internal::xyz(complex_.points[v[0]]), internal::xyz(complex_.points[v[1]]),
+                                          internal::xyz(complex_.points[v[2]])}};
+      Xyz_3 normal =
+          internal::cross_product(internal::minus(corners[1], corners[0]), internal::minus(corners[2], corners[0]));
+      const double length = internal::norm(normal);
+      if (!(length > 0)) continue;
+      for (double& n : normal) n /= length;
+      for (const std::size_t vertex : v) {
+        if (is_visited[vertex]) continue;
+        is_visited[vertex] = true;
+        visit(complex_.points[vertex], complex_.patches[t], Xyz_3()); // edges and tips have no normal
+      }
+      internal::for_each_grid_point(
+          corners, spacing, [&](const Xyz_3& p) { visit(Point(p[0], p[1], p[2]), complex_.patches[t], normal); });
+    }
+  }
+
+  /// Distance from a point of the boundary to where the boundary is met again along a normal, on either side; at most
+  /// `reach`, which it is for a zero normal.
+  double thickness(const Point& p, const std::array<double, 3>& normal, double reach) const
+  {
+    if (normal == std::array<double, 3>()) return reach;
+    double nearest = reach;
+    std::vector<Surface_hit_3<K>> hits;
+    for (const double side : {-1., 1.}) {
+      const auto at = [&](double d) {
+        return Point(p.x() + side * d * normal[0], p.y() + side * d * normal[1], p.z() + side * d * normal[2]);
+      };
+      hits.clear();
+      surface_.intersect(at(1e-3 * reach), at(nearest), hits);
+      for (const auto& hit : hits)
+        nearest = (std::min)(nearest, internal::norm(internal::minus(internal::xyz(hit.point), internal::xyz(p))));
+    }
+    return nearest;
   }
 
 private:
