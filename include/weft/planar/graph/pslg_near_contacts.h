@@ -3,8 +3,6 @@
 // What is nearly in contact in a planar straight line graph: points closer to each other than a tolerance, which a
 // hashed grid finds, and points within it of a segment, among candidates from CGAL's intersection of boxes. Distances
 // are computed in floating point, as a tolerance allows.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_GRAPH_PSLG_NEAR_CONTACTS_H
 #define WEFT_PLANAR_GRAPH_PSLG_NEAR_CONTACTS_H

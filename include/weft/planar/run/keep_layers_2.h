@@ -3,8 +3,6 @@
 // Runs a planar mesher on a triangulation that knows more than the mesher does, and tells it afterwards what the mesher
 // did: the polylines of a CGAL::Constrained_triangulation_plus_2 get the Steiner points, `info()` of faces comes from
 // the input. That happens on every way out.
-//
-// Not meant for users.
 
 #ifndef WEFT_PLANAR_RUN_KEEP_LAYERS_2_H
 #define WEFT_PLANAR_RUN_KEEP_LAYERS_2_H
