@@ -214,7 +214,11 @@ Status run(const Request& request)
     throw Error(request.input() + ": no mesh yet, " + name(report.stop_reason) + "; nothing is written");
   const std::string missing = what_is_missing(request, report, smallest_dihedral(*result));
   write_files(request, *result, files);
-  if (!request.quiet) std::cout << report << std::flush;
+  if (!request.quiet) {
+    std::cout << report;
+    if (request.outputs.empty()) std::cout << "no mesh is written: --output FILE names one\n";
+    std::cout << std::flush;
+  }
   if (!missing.empty()) command_line::complain("mesh_3", missing);
   return missing.empty() ? complete : stopped_early;
 }
