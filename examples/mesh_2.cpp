@@ -50,7 +50,7 @@ struct Request : command_line::Files
 {
   mesh_2_program::Sizes sizes;
   std::vector<std::string> size_texts; ///< as given
-  std::string size_text; ///< "size 0.1" or "lfs 0.5", for titles
+  std::string size_text;               ///< "size 0.1" or "lfs 0.5", for titles
   std::string voronoi;
   mesh_2_program::Input_options input_options;
   command_line::Length tolerance;
@@ -78,9 +78,10 @@ void add_options(command_line::Options& options, Request& request)
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   add_seed_threads_and_time(options, request.options);
   add_max_vertices(options, request.options);
-  options.length("--tolerance", "T", true, request.tolerance,
-                 "distance up to which points, or a point and a segment, count as touching (default 3e-10\nof the longer "
-                 "side of the bounding box); 0: exact");
+  options.length(
+      "--tolerance", "T", true, request.tolerance,
+      "distance up to which points, or a point and a segment, count as touching (default 3e-10\nof the longer "
+      "side of the bounding box); 0: exact");
   options.flag("--split-crossings", request.input_options.split_crossings,
                "split segments that cross, instead of refusing them");
   add_quiet(options, request);

@@ -203,8 +203,8 @@ TEST_CASE("a graph without anything close is inserted bit for bit as without a t
       if (!inserted.changes.empty()) continue;
       ++compared;
       CHECK(fingerprint(with) == fingerprint(without));
-      CHECK(inserted.graph.segments.size() == static_cast<std::size_t>(std::distance(with.constrained_edges_begin(),
-                                                                                    with.constrained_edges_end())));
+      CHECK(inserted.graph.segments.size() ==
+            static_cast<std::size_t>(std::distance(with.constrained_edges_begin(), with.constrained_edges_end())));
     }
   CHECK(compared > 2 * graphs.size());
   for (const Domain& domain : domains()) {

@@ -23,9 +23,10 @@ using Plus = CGAL::Constrained_triangulation_plus_2<Cdt>;
 
 /// CGAL's base for data of users below weft's face base.
 using Info_face = weft::Mesh_face_base_2<
-    K, CGAL::Delaunay_mesh_face_base_2<
-           K, CGAL::Constrained_Delaunay_triangulation_face_base_2<
-                  K, CGAL::Constrained_triangulation_face_base_2<K, CGAL::Triangulation_face_base_with_info_2<int, K>>>>>;
+    K,
+    CGAL::Delaunay_mesh_face_base_2<
+        K, CGAL::Constrained_Delaunay_triangulation_face_base_2<
+               K, CGAL::Constrained_triangulation_face_base_2<K, CGAL::Triangulation_face_base_with_info_2<int, K>>>>>;
 using Info_cdt = CGAL::Constrained_Delaunay_triangulation_2<
     K, CGAL::Triangulation_data_structure_2<weft::Mesh_vertex_base_2<K>, Info_face>,
     CGAL::No_constraint_intersection_requiring_constructions_tag>;
@@ -85,7 +86,8 @@ bool polylines_are_whole(Plus& cdt)
     for (std::size_t i = 1; i < v.size(); ++i) links.insert(std::minmax(v[i - 1], v[i]));
   }
   for (auto edge = cdt.constrained_edges_begin(); edge != cdt.constrained_edges_end(); ++edge)
-    edges.insert(std::minmax(edge->first->vertex(Plus::ccw(edge->second)), edge->first->vertex(Plus::cw(edge->second))));
+    edges.insert(
+        std::minmax(edge->first->vertex(Plus::ccw(edge->second)), edge->first->vertex(Plus::cw(edge->second))));
   const auto n = static_cast<std::size_t>(std::distance(cdt.subconstraints_begin(), cdt.subconstraints_end()));
   return links == edges && n == edges.size();
 }
@@ -265,6 +267,7 @@ TEST_CASE("marks of edges and regions hold after meshing")
       length[marks.edge(face, i)] += std::sqrt(cdt.segment(face, i).squared_length());
     }
   }
-  for (const auto& [mark, expected] : std::map<int, double>{{10, 3}, {20, 1}, {30, 3}, {40, 1}, {1, 2}, {2, 1}, {3, 2}, {4, 1}})
+  for (const auto& [mark, expected] :
+       std::map<int, double>{{10, 3}, {20, 1}, {30, 3}, {40, 1}, {1, 2}, {2, 1}, {3, 2}, {4, 1}})
     CHECK(length[mark] == Approx(expected)); // the inner ones from both sides
 }

@@ -32,8 +32,8 @@ namespace weft {
 /// Vertices of `cdt` at the call are input vertices: they stay exactly where they are, and every constraint becomes a
 /// chain of constrained edges. The domain is the set of faces with `is_in_domain()`; if there is none, it is marked by
 /// nesting parity. Afterwards Steiner vertices have `constraint()` >= 0 on constraints, else `free_vertex`; vertices
-/// have running ids. Faces with CGAL's `info()` have that of the input's face in which they lie (Input_faces_2, also for
-/// other data). On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
+/// have running ids. Faces with CGAL's `info()` have that of the input's face in which they lie (Input_faces_2, also
+/// for other data). On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
 ///
 /// Time is about linear in the number of vertices; the result depends on nothing but the arguments, not on threads.
 /// \tparam Cdt a CGAL constrained Delaunay triangulation with the bases of Mesh_triangulation_2.h, or a

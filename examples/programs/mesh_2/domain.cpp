@@ -117,8 +117,8 @@ private:
   std::unique_ptr<Sizing> sizing(const Sizes& sizes) const
   {
     if (sizes.lfs > 0) return lfs_sizing(graph_of(cdt_), sizes.lfs, sizes.min_size.in(diagonal_));
-    const bool has_areas = std::any_of(tags_.regions.begin(), tags_.regions.end(),
-                                       [](const auto& region) { return region.max_area > 0; });
+    const bool has_areas =
+        std::any_of(tags_.regions.begin(), tags_.regions.end(), [](const auto& region) { return region.max_area > 0; });
     const double size = sizes.size.in(diagonal_);
     if (sizes.size_of_mark.empty() && !has_areas) return uniform_sizing(size);
     std::map<int, double> size_of_mark;

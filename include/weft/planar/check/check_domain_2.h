@@ -55,8 +55,8 @@ template <class Cdt, class K>
 Validity_2 check_flags(const Cdt& cdt, const Pslg_2<K>& pslg)
 {
   const auto components = face_components(cdt);
-  std::vector<char> in_domain = pslg.holes.empty() ? odd_levels(cdt, components)
-                                                   : std::vector<char>(as_index(components.count), 1);
+  std::vector<char> in_domain =
+      pslg.holes.empty() ? odd_levels(cdt, components) : std::vector<char>(as_index(components.count), 1);
   const auto put = [&](const typename K::Point_2& p, char value) {
     const auto face = cdt.locate(p);
     if (!is_on_constraint(cdt, p, face)) in_domain[as_index(components.number[face])] = value;
@@ -131,8 +131,8 @@ Validity_2 check_domain_2(const Cdt& cdt)
 }
 
 /// Checks that the faces in the domain are those that the graph describes, by its holes if it has any, else by nesting
-/// parity, and by its regions; and that their area is that of the graph's own triangulation, up to the rounding of vertices on segments.
-/// O(n log n) time. Structure and orientation must be sound.
+/// parity, and by its regions; and that their area is that of the graph's own triangulation, up to the rounding of
+/// vertices on segments. O(n log n) time. Structure and orientation must be sound.
 template <class Cdt, class K>
 Validity_2 check_domain_2(const Cdt& cdt, const Pslg_2<K>& pslg)
 {

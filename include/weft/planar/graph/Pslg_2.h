@@ -24,9 +24,9 @@ struct Pslg_changes
 {
   using Pair = std::array<std::size_t, 2>;
 
-  double tolerance = 0;                      ///< as a length; 0: exact
-  std::vector<Pair> merged_points;           ///< a point, and the one whose vertex it shares though it isn't equal to it
-  std::vector<Pair> split_segments;          ///< a segment, and a point within the tolerance at which it is split
+  double tolerance = 0;             ///< as a length; 0: exact
+  std::vector<Pair> merged_points;  ///< a point, and the one whose vertex it shares though it isn't equal to it
+  std::vector<Pair> split_segments; ///< a segment, and a point within the tolerance at which it is split
   std::vector<std::size_t> dropped_segments; ///< length zero, or no longer than the tolerance
   std::vector<Pair> overlapping_segments;    ///< two segments with a common part, which is one constraint
   std::vector<std::string> notes;            ///< the same in words, one sentence a kind; empty if there was nothing

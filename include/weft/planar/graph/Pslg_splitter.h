@@ -11,8 +11,8 @@
 #include <weft/errors.h>
 #include <weft/internal/counted.h>
 #include <weft/planar/graph/Pslg_2.h>
-#include <weft/planar/graph/segment_contacts.h>
 #include <weft/planar/graph/pslg_near_contacts.h>
+#include <weft/planar/graph/segment_contacts.h>
 
 #include <CGAL/Bbox_2.h>
 #include <CGAL/Cartesian_converter.h>
@@ -98,7 +98,8 @@ public:
   {
     Pslg_changes result = changes_;
     const auto add = [&](const std::string& first, std::size_t count) {
-      if (count > 0) result.notes.push_back(first + (count > 1 ? " (and " + counted(count - 1, "other", "others") + ")" : ""));
+      if (count > 0)
+        result.notes.push_back(first + (count > 1 ? " (and " + counted(count - 1, "other", "others") + ")" : ""));
     };
     const auto& [tolerance, merged, split, dropped, overlapping, notes] = changes_;
     if (!merged.empty())
@@ -125,8 +126,8 @@ private:
     CGAL::Bbox_2 box;
     for (const Index_pair& s : segments) box += points[s[0]].bbox() + points[s[1]].bbox();
     const double extent = (std::max)(box.xmax() - box.xmin(), box.ymax() - box.ymin());
-    const double largest = (std::max)({std::abs(box.xmin()), std::abs(box.xmax()), std::abs(box.ymin()),
-                                       std::abs(box.ymax())});
+    const double largest =
+        (std::max)({std::abs(box.xmin()), std::abs(box.xmax()), std::abs(box.ymin()), std::abs(box.ymax())});
     return (std::max)(relative * extent, 4 * std::numeric_limits<double>::epsilon() * largest);
   }
 

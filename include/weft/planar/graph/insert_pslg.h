@@ -45,8 +45,9 @@ struct Inserted_pslg
 {
   std::vector<typename Cdt::Vertex_handle> vertices; ///< one per input point; those that were merged share one
   Mesh_tags_2<typename Cdt::Geom_traits> tags;       ///< input segment and marks of constrained edges, for the writers
-  Pslg_2<typename Cdt::Geom_traits> graph; ///< as inserted: segments meet at their ends only. For `Lfs_sizing_2`, checks
-  Pslg_changes changes;                    ///< what was merged, split and left out
+  Pslg_2<typename Cdt::Geom_traits>
+      graph;            ///< as inserted: segments meet at their ends only. For `Lfs_sizing_2`, checks
+  Pslg_changes changes; ///< what was merged, split and left out
 };
 
 namespace internal {

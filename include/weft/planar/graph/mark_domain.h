@@ -182,8 +182,8 @@ struct Domain_marks
   std::vector<std::size_t> regions_outside;        ///< outside of everything
   std::vector<std::size_t> regions_in_holes;       ///< the hole wins
   std::vector<std::size_t> regions_overruled;      ///< a later region has its point in the same part of the domain
-  std::size_t unnamed_parts = 0;     ///< parts of the domain that no region names, if the input names any
-  std::vector<std::string> warnings; ///< the same in words, one sentence each; empty if there was nothing
+  std::size_t unnamed_parts = 0;                   ///< parts of the domain that no region names, if the input names any
+  std::vector<std::string> warnings;               ///< the same in words, one sentence each; empty if there was nothing
 };
 
 namespace internal {
@@ -212,8 +212,8 @@ public:
     for (std::size_t c = 0; c < in_domain_.size() && !pslg.regions.empty(); ++c)
       if (in_domain_[c] && region_of.count(c) == 0) ++marks_.unnamed_parts;
     if (marks_.unnamed_parts > 0)
-      marks_.warnings.push_back(
-          counted(marks_.unnamed_parts, "part of the domain has", "parts of the domain have") + " no region" + somewhere(region_of));
+      marks_.warnings.push_back(counted(marks_.unnamed_parts, "part of the domain has", "parts of the domain have") +
+                                " no region" + somewhere(region_of));
   }
 
   const Face_components<Cdt>& components() const { return components_; }

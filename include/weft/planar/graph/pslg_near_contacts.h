@@ -85,8 +85,8 @@ double distance_if_between(const Point& a, const Point& b, const Point& p)
   const auto y = [](const Point& q) { return CGAL::to_double(q.y()); };
   const double dx = x(b) - x(a), dy = y(b) - y(a), length = std::hypot(dx, dy), ux = dx / length, uy = dy / length,
                px = x(p) - x(a), py = y(p) - y(a), along = px * ux + py * uy;
-  const bool between = 0 < along && along < length && std::hypot(px, py) < length &&
-                       std::hypot(x(p) - x(b), y(p) - y(b)) < length;
+  const bool between =
+      0 < along && along < length && std::hypot(px, py) < length && std::hypot(x(p) - x(b), y(p) - y(b)) < length;
   return between ? std::abs(px * uy - py * ux) : std::numeric_limits<double>::infinity();
 }
 
@@ -108,15 +108,15 @@ std::vector<Index_pair> points_near_segments(const std::vector<typename K::Point
 
   const Segment_predicates<K> predicates(points, segments);
   std::vector<Index_pair> pairs;
-  CGAL::box_intersection_d(
-      segment_boxes.begin(), segment_boxes.end(), point_boxes.begin(), point_boxes.end(),
-      [&](const Box& a, const Box& b) {
-        const std::size_t s = a.info(), p = b.info();
-        const auto [from, to] = segments[s];
-        if (p == from || p == to) return;
-        if (distance_if_between(points[from], points[to], points[p]) <= tolerance || predicates.in_interior(s, p))
-          pairs.push_back({s, p});
-      });
+  CGAL::box_intersection_d(segment_boxes.begin(), segment_boxes.end(), point_boxes.begin(), point_boxes.end(),
+                           [&](const Box& a, const Box& b) {
+                             const std::size_t s = a.info(), p = b.info();
+                             const auto [from, to] = segments[s];
+                             if (p == from || p == to) return;
+                             if (distance_if_between(points[from], points[to], points[p]) <= tolerance ||
+                                 predicates.in_interior(s, p))
+                               pairs.push_back({s, p});
+                           });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
@@ -135,8 +135,8 @@ double smallest_altitude(const Cdt& cdt)
       y[i] = CGAL::to_double(face->vertex(static_cast<int>(i))->point().y());
     }
     const double ux = x[1] - x[0], uy = y[1] - y[0], vx = x[2] - x[0], vy = y[2] - y[0];
-    const double longest = std::sqrt((std::max)({ux * ux + uy * uy, vx * vx + vy * vy,
-                                                 (vx - ux) * (vx - ux) + (vy - uy) * (vy - uy)}));
+    const double longest =
+        std::sqrt((std::max)({ux * ux + uy * uy, vx * vx + vy * vy, (vx - ux) * (vx - ux) + (vy - uy) * (vy - uy)}));
     smallest = (std::min)(smallest, std::abs((ux / longest) * vy - (uy / longest) * vx));
   }
   return smallest;

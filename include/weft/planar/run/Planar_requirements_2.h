@@ -59,7 +59,8 @@ public:
   {
     static_assert(is_layered || is_constrained_delaunay,
                   "weft: not a CGAL::Constrained_Delaunay_triangulation_2; use weft::Mesh_triangulation_2<K>");
-    static_assert(!is_layered, "weft: Triangulation_hierarchy_2 would lose its layers; use weft::Mesh_triangulation_2<K>");
+    static_assert(!is_layered,
+                  "weft: Triangulation_hierarchy_2 would lose its layers; use weft::Mesh_triangulation_2<K>");
     static_assert(
         is_layered || !is_constrained_delaunay || has_bases,
         "weft: the triangulation lacks weft's bases; use weft::Mesh_triangulation_2<K>, or vertices and faces "

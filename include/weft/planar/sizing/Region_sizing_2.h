@@ -39,8 +39,8 @@ public:
   /// \param size_of_mark the same for regions with a mark.
   /// \param k growth of the size per unit of distance from a finer region.
   /// \throws Option_error for sizes that aren't positive and finite, and for a mark that no region has.
-  Region_sizing_2(const Cdt& cdt, const Mesh_tags_2<K>& tags, double size, const std::map<int, double>& size_of_mark = {},
-                  double k = 0.5)
+  Region_sizing_2(const Cdt& cdt, const Mesh_tags_2<K>& tags, double size,
+                  const std::map<int, double>& size_of_mark = {}, double k = 0.5)
       : data_(std::make_shared<Data>(cdt, tags, size, size_of_mark, k))
   {}
 
