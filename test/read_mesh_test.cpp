@@ -353,7 +353,7 @@ TEST_CASE("elements that don't make a mesh are refused with the element")
   CHECK_THAT(error_of(infinite), Catch::Contains("vertex 4 has coordinates that aren't finite"));
   Soup tags = two_cells();
   tags.cell_tags = {1};
-  CHECK_THAT(error_of(tags), Catch::Contains("2 cells and 1 tags"));
+  CHECK_THAT(error_of(tags), Catch::Contains("2 cells and 1 tag of them"));
 }
 
 TEST_CASE("what doesn't matter is left out and noted, and the rest renumbered")
