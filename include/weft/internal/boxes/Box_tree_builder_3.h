@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Orders boxes for a hierarchy of four-way nodes: ranges are split where the surface area heuristic is smallest, among
-// 16 bins along each axis (Wald: "On fast construction of SAH-based bounding volume hierarchies", 2007). Not meant for
-// users.
+// 16 bins along each axis (Wald: "On fast construction of SAH-based bounding volume hierarchies", 2007).
 
 #ifndef WEFT_INTERNAL_BOXES_BOX_TREE_BUILDER_3_H
 #define WEFT_INTERNAL_BOXES_BOX_TREE_BUILDER_3_H

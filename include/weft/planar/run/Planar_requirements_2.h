@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What planar meshers require of their arguments at compile time, as one sentence for each mistake. Not meant for
-// users.
+// What planar meshers require of their arguments at compile time, as one sentence for each mistake.
 
 #ifndef WEFT_PLANAR_RUN_PLANAR_REQUIREMENTS_2_H
 #define WEFT_PLANAR_RUN_PLANAR_REQUIREMENTS_2_H

@@ -23,7 +23,6 @@ struct Subdomain_shape_3
   double area = 0;     ///< of its boundary
   long components = 0; ///< connected components of its boundary
   long euler = 0;      ///< V - E + F of its boundary: twice the components less the handles, where it is a 2-manifold
-  bool has_topology = true; ///< whether components and Euler characteristic are known
 };
 
 /// The subdomains of a domain or a mesh, by their numbers.

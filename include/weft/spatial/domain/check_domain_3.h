@@ -54,14 +54,17 @@ void visit_crease_samples(const Oracle& oracle, double spacing, const Visit& vis
 } // namespace internal
 
 /// Compares a mesh with its domain.
-/// \param approximation distance of facets from the boundary that was asked for, in the input's units; 0 if none was:
-/// then
-///   volumes and distances are measured, and the tolerance is the infinite one.
-/// \param missed if not null, gets the samples that are missed, with their patches.
 ///
-/// An oracle may have two members for this, else as much is compared as seeds of patches tell: `shape()`, a
-/// Domain_shape_3, and `visit_samples(spacing, visit)`, which calls `visit(point, patch)` for points of the boundary no
-/// farther apart than that. O((n + samples) log n) time for n elements of the mesh.
+/// An oracle may have three more members for this; without them the comparison knows what seeds of patches tell.
+/// `shape()` returns a Domain_shape_3. `visit_samples(spacing, visit)` calls `visit(point, patch, unit normal)` for
+/// points of the boundary no farther apart than that, with zero for the normal where there is none. `thickness(point,
+/// normal, reach)` is the distance to where the boundary is met again along the normal, at most `reach`.
+///
+/// O((n + samples) log n) time for n elements of the mesh.
+/// \param approximation distance of facets from the boundary that was asked for, in the input's units. 0 if none was:
+///   then patches and creases need only have some facet or edge, and volumes may differ.
+/// \param missed if not null, gets the samples that are missed, with their patches.
+/// \pre Patches and creases of the mesh have the numbers that the oracle gives them.
 template <class K, class Oracle>
 Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle, double approximation,
                                    std::vector<std::pair<typename K::Point_3, int>>* missed = nullptr)
@@ -83,7 +86,7 @@ Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Orac
   const auto box = oracle.bbox();
   const double extent = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   const double spacing = std::max(4 * approximation, 1e-3 * extent);
-  constexpr double part_of_thickness = 0.8; // more than the mesher allows itself: optimisation moves facets
+  constexpr double part_of_thickness = 0.8; // less than one: one side can't stand for the other
   result.samples = internal::visit_missed_samples(
       oracle, distance, spacing, approximation, part_of_thickness, [&](const Point& p, int patch, double) {
         ++result.missed_patch_samples;
@@ -93,7 +96,7 @@ Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Orac
   internal::visit_crease_samples(oracle, spacing, [&](const Point& p, int crease) {
     ++result.samples;
     const double d = distance.distance_to_edges(p, crease);
-    if (d <= result.tolerance) return;
+    if (std::isfinite(d) && d <= result.tolerance) return; // infinite: the crease has no edge at all
     ++result.missed_crease_samples;
     result.largest_distance = std::max(result.largest_distance, d);
   });
@@ -120,7 +123,7 @@ Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Orac
       // Rounding of the sums is allowed for, too.
       row.allowed_difference =
           approximation > 0 ? approximation * asked.area + 1e-9 * std::abs(asked.volume) : infinity;
-      if (asked.has_topology) row.expected_components = asked.components, row.expected_euler = asked.euler;
+      row.expected_components = asked.components, row.expected_euler = asked.euler;
     }
     result.subdomains.push_back(row);
   }
