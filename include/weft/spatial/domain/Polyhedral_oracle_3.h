@@ -19,10 +19,12 @@
 #include <weft/internal/boxes/grid_points_3.h>
 #include <weft/spatial/domain/Acute_edges_3.h>
 #include <weft/spatial/domain/Crease_network_3.h>
+#include <weft/spatial/domain/Crease_shells_3.h>
 #include <weft/spatial/domain/Domain_shape_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
 #include <weft/spatial/domain/Patched_surface_3.h>
 #include <weft/spatial/domain/Salient_features_3.h>
+#include <weft/spatial/domain/sheet_pairs_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
@@ -70,7 +72,7 @@ public:
       throw Domain_error("a surface of 2^30 or more points or triangles", {}, {});
     build_surface();
     build_creases();
-    acute_edges_ = internal::Acute_edges_3<K>(complex_, acute_angle);
+    build_acute_edges();
     salient_ = internal::Salient_features_3<K>(complex_, {fold_angle, ridge_angle, sharp_angle, 180 - acute_angle});
   }
 
@@ -173,6 +175,48 @@ public:
   /// it is.
   bool attract_to_acute_edge(Point& p, double radius) const { return acute_edges_.attract(p, radius); }
 
+  /// Whether parts of the boundary meet at small angles.
+  bool has_mirror_images() const { return !acute_edges_.empty() || !shells_.empty(); }
+
+  /// Calls `visit(image, where it lies)` for the places where a vertex of the boundary wants a twin: its mirror images
+  /// in the planes that bisect acute edges, and the points of creases that are as far from a feature vertex as the
+  /// vertex, where creases meet at a small angle. Only those nearer to the vertex than `spacing`, its distance to the
+  /// nearest other vertex. An image within a quarter of the distance to the vertex from a crease lies on the crease;
+  /// one as near to a feature vertex isn't needed, and one as far from the boundary doesn't exist.
+  template <class Visit>
+  void visit_mirror_images(const Point& p, const Vertex_location_3& at, double spacing, const Visit& visit) const
+  {
+    if (at.dimension == 1)
+      shells_.visit_images(
+          p, at.index, spacing,
+          [this](int crease) -> const std::vector<Point>& { return creases_.crease_points(crease); },
+          [&](const Point& image, int crease) {
+            visit(image, Vertex_location_3{1, crease});
+          });
+    const int patch = at.dimension == 2 ? at.index : -1;
+    acute_edges_.visit_images(p, patch, spacing, [&](const Point& image, const internal::Xyz_3&) {
+      const double near = 0.0625 * CGAL::squared_distance(p, image);
+      int corner = -1, crease = -1;
+      if (number_of_corners() > 0 && CGAL::squared_distance(corners_.nearest(image, corner), image) < near) return;
+      if (number_of_creases() > 0) {
+        const Point on_crease = creases_.project(image, crease);
+        if (CGAL::squared_distance(on_crease, image) < near) {
+          visit(on_crease, Vertex_location_3{1, crease});
+          return;
+        }
+      }
+      const Surface_hit_3<K> hit = closest(image);
+      if (CGAL::squared_distance(hit.point, image) < near) visit(hit.point, Vertex_location_3{2, hit.patch});
+    });
+  }
+
+  /// Calls `visit(crease, angle in radians)` for the creases that meet a crease at a small angle.
+  template <class Visit>
+  void visit_creases_at_small_angles(int crease, const Visit& visit) const
+  {
+    shells_.visit_neighbours(crease, visit);
+  }
+
   /// Vertices that every mesh has to keep.
   std::size_t number_of_corners() const { return creases_.number_of_corners(); }
   const Point& corner(std::size_t i) const { return creases_.corner(i); }
@@ -264,6 +308,7 @@ private:
   static constexpr double fold_angle = 5, ridge_angle = 30, sharp_angle = 75;
 
   static constexpr double acute_angle = 60; // degrees; from there on refinement ends by itself
+  static constexpr double shell_angle = 29; // the same for creases that meet on a patch
 
   using Triangle = internal::Surface_triangle_3<K>;
 
@@ -297,6 +342,23 @@ private:
       for (const std::size_t v : crease.vertices) creases.back().points.push_back(complex_.points[v]);
     }
     creases_ = Crease_network_3<K>(std::move(corners), std::move(creases));
+  }
+
+  void build_acute_edges()
+  {
+    acute_edges_ = internal::Acute_edges_3<K>(complex_, acute_angle);
+    std::vector<char> is_at_acute_edge(complex_.points.size(), false);
+    if (!acute_edges_.empty()) {
+      for (const auto& pair : internal::sheet_pairs_3(complex_, acute_angle * internal::radians_per_degree))
+        is_at_acute_edge[pair.source] = is_at_acute_edge[pair.target] = true;
+      std::vector<internal::Crease_segment_3<K>> corners;
+      for (std::size_t i = 0; i < number_of_corners(); ++i)
+        corners.push_back({corner(i), corner(i), static_cast<int>(i)});
+      corners_ = internal::Segment_hierarchy_3<K>(corners);
+    }
+    shells_ = internal::Crease_shells_3<K>(complex_, [&](std::size_t vertex) {
+      return internal::radians_per_degree * (is_at_acute_edge[vertex] ? acute_angle : shell_angle);
+    });
   }
 
   template <class Belongs>
@@ -334,6 +396,8 @@ private:
   Crease_network_3<K> creases_;
   internal::Salient_features_3<K> salient_;
   internal::Acute_edges_3<K> acute_edges_;
+  internal::Crease_shells_3<K> shells_;
+  internal::Segment_hierarchy_3<K> corners_; ///< feature vertices as segments; empty without acute edges
 };
 
 } // namespace weft

@@ -8,8 +8,15 @@
 
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/refine/Crease_divider_3.h>
+#include <weft/spatial/refine/Mirror_twins_3.h>
 
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 namespace weft::internal {
@@ -20,11 +27,13 @@ class Boundary_seeder_3
 {
 public:
   using Kernel = typename Restricted::Kernel;
+  using Point = typename Restricted::Point;
+  using Vertex_handle = typename Restricted::Vertex_handle;
 
   /// \param most_vertices of the mesh. Feature vertices and the fewest points that make a polygon of a crease are
   ///   inserted all the same.
   Boundary_seeder_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, std::size_t most_vertices)
-      : mesh_(mesh), criteria_(criteria), most_vertices_(most_vertices)
+      : mesh_(mesh), criteria_(criteria), most_vertices_(most_vertices), twins_(mesh)
   {}
 
   void insert_corners()
@@ -38,6 +47,10 @@ public:
   void insert_crease_seeds()
   {
     const auto& oracle = mesh_.oracle();
+    if (oracle.has_mirror_images()) {
+      insert_crease_seeds_with_twins();
+      return;
+    }
     for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) {
       const auto& points = mesh_.creases().points(c);
       const Crease_divider_3<Kernel> divider(points, criteria_);
@@ -62,13 +75,67 @@ public:
       if (has_facet[p] || seeded_[p] >= most_seeds || !oracle.is_expected(static_cast<int>(p))) continue;
       const auto seeds = oracle.patch_seeds(static_cast<int>(p), seeded_[p] + n);
       for (std::size_t k = seeded_[p]; k < seeds.size() && has_room(); ++k, ++inserted)
-        mesh_.insert(seeds[k].point, {2, static_cast<int>(p)});
+        insert_with_twins(seeds[k].point, {2, static_cast<int>(p)});
       seeded_[p] += n;
     }
     return inserted;
   }
 
 private:
+  /// The same where creases meet at small angles: the longest first, and of the others what twins have left.
+  void insert_crease_seeds_with_twins()
+  {
+    const auto& oracle = mesh_.oracle();
+    const std::size_t n = oracle.number_of_creases();
+    std::vector<Crease_divider_3<Kernel>> dividers;
+    std::vector<std::size_t> order;
+    for (std::size_t c = 0; c < n; ++c) {
+      dividers.emplace_back(mesh_.creases().points(c), criteria_);
+      order.push_back(c);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return dividers[a].length() > dividers[b].length(); });
+    twins_on_crease_.assign(n, {});
+    for (const std::size_t c : order) {
+      const bool is_closed = oracle.crease_is_closed(static_cast<int>(c));
+      const std::size_t least = dividers[c].is_loop() ? 3 : 1;
+      const auto fractions = dividers[c].fractions(least, is_closed, twins_on_crease_[c]);
+      std::size_t on_crease = twins_on_crease_[c].size() + !is_closed;
+      for (const double fraction : fractions) {
+        if (on_crease++ >= least && !has_room()) break;
+        insert_with_twins(dividers[c].at(fraction), {1, static_cast<int>(c)});
+      }
+    }
+    for (std::size_t i = 0; i < oracle.number_of_corners(); ++i) insert_twins(mesh_.vertices()[i]);
+  }
+
+  void insert_with_twins(const Point& p, const Vertex_location_3& location)
+  {
+    const Vertex_handle v = mesh_.insert(p, location);
+    if (v != Vertex_handle() && mesh_.oracle().has_mirror_images()) insert_twins(v);
+  }
+
+  void insert_twins(Vertex_handle v)
+  {
+    double spacing = size_at(v->point());
+    neighbours_.clear();
+    mesh_.triangulation().finite_adjacent_vertices(v, std::back_inserter(neighbours_));
+    for (const Vertex_handle w : neighbours_)
+      spacing = (std::min)(spacing, std::sqrt(CGAL::to_double(CGAL::squared_distance(v->point(), w->point()))));
+    twins_.add(v->point(), v->location(), spacing);
+    const std::size_t room = most_vertices_ - (std::min)(most_vertices_, mesh_.vertices().size());
+    twins_.insert(room, [this](const auto& zone, const Vertex_location_3& location) {
+      mesh_.insert(zone.point, location);
+      if (location.dimension == 1 && !twins_on_crease_.empty())
+        twins_on_crease_[static_cast<std::size_t>(location.index)].push_back(zone.point);
+    });
+  }
+
+  double size_at(const Point& p) const
+  {
+    return criteria_.size.is_constant() ? criteria_.size.constant() : criteria_.size(p);
+  }
+
   bool has_room() const { return mesh_.vertices().size() < most_vertices_; }
 
   static constexpr std::size_t most_seeds = 40; ///< of a patch
@@ -77,6 +144,9 @@ private:
   const Criteria_3<Kernel>& criteria_;
   std::size_t most_vertices_;
   std::vector<std::size_t> seeded_; ///< by patch, how many seeds it has been given
+  Mirror_twins_3<Restricted> twins_;
+  std::vector<std::vector<Point>> twins_on_crease_;
+  std::vector<Vertex_handle> neighbours_;
 };
 
 } // namespace weft::internal
