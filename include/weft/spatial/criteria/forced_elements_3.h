@@ -58,8 +58,19 @@ bool is_forced(const Restricted& mesh, const typename Restricted::Restricted_fac
                             2 * std::asin(0.5 / largest_ratio));
 }
 
-/// Whether a cell fills the wedge at an acute edge: all its vertices lie on the boundary, and its circumscribed ball
-/// mixes up the sides of the edge.
+/// The angle in degrees of the acute edge whose wedge a cell would fill: all its vertices lie on the boundary, and its
+/// circumscribed ball mixes up the sides of the edge. 180 if there is no such edge.
+template <class Oracle, class Point>
+double forcing_angle(const Oracle& oracle, const std::array<Vertex_location_3, 4>& locations, const Point& circumcenter,
+                     const Point& vertex)
+{
+  if (!oracle.has_mirror_images()) return 180;
+  for (const Vertex_location_3& at : locations)
+    if (at.dimension > 2) return 180;
+  return oracle.acute_angle_at(circumcenter, std::sqrt(CGAL::to_double(CGAL::squared_distance(circumcenter, vertex))));
+}
+
+/// Whether a cell fills the wedge at an acute edge.
 template <class Restricted>
 bool is_forced(const Restricted& mesh, typename Restricted::Cell_handle c)
 {

@@ -68,6 +68,17 @@ public:
     return found;
   }
 
+  /// The smallest angle of such edges, in degrees; 180 if there is none.
+  double angle_near(const Point& center, double radius) const
+  {
+    double smallest = 180;
+    visit_near(center, radius, [&](const Edge& edge, const Point&, double) {
+      smallest = (std::min)(smallest, edge.angle / radians_per_degree);
+      return false;
+    });
+    return smallest;
+  }
+
   /// The mirror image of `p` in the plane that bisects the acute edge nearest to `center`, if the ball mixes up the
   /// sides of that edge, with its center on the one and `p` on the other. Returns whether that is so.
   bool mirror(const Point& p, const Point& center, double radius, Point& image) const
@@ -90,9 +101,9 @@ public:
     return true;
   }
 
-  /// Calls `visit(image, normal)` for the mirror images of a point of the surface in the planes that bisect acute
+  /// Calls `visit(image)` for the mirror images of a point of the surface in the planes that bisect acute
   /// edges of whose sheets one holds it, as far as they are nearer to it than `spacing`. Of the edges of two patches
-  /// the nearest one counts. The normal is that of the plane.
+  /// the nearest one counts.
   /// \param patch that the point lies on; -1: on a crease or a feature vertex.
   template <class Visit>
   void visit_images(const Point& p, int patch, double spacing, const Visit& visit) const
@@ -121,7 +132,7 @@ public:
       const auto& patches = edges_[images[i].edge].patches;
       const bool is_first = std::none_of(images.begin(), images.begin() + static_cast<std::ptrdiff_t>(i),
                                          [&](const Image& j) { return edges_[j.edge].patches == patches; });
-      if (is_first) visit(images[i].point, edges_[images[i].edge].normal);
+      if (is_first) visit(images[i].point);
     }
   }
 

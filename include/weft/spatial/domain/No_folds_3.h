@@ -28,6 +28,7 @@ public:
   bool is_at_acute_edge(const Point&, double) const { return false; }
   bool mirror_at_acute_edge(const Point&, const Point&, double, Surface_hit_3<K>&) const { return false; }
   bool attract_to_acute_edge(Point&, double) const { return false; }
+  double acute_angle_at(const Point&, double) const { return 180; }
   bool has_mirror_images() const { return false; }
   template <class Visit>
   void visit_creases_at_small_angles(int, const Visit&) const

@@ -32,10 +32,12 @@
 #include <CGAL/Bbox_3.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -160,6 +162,9 @@ public:
   /// See Acute_edges_3.h.
   bool is_at_acute_edge(const Point& center, double radius) const { return acute_edges_.is_near(center, radius); }
 
+  /// The smallest angle of the acute edges that a ball mixes up the sides of, in degrees; 180 if there is none.
+  double acute_angle_at(const Point& center, double radius) const { return acute_edges_.angle_near(center, radius); }
+
   /// The mirror image of a point of the boundary on the other side of the acute edge nearest to the center of a ball,
   /// if the ball mixes up the sides of that edge and its center lies on the other side. Returns whether that is so and
   /// the boundary is there, up to a quarter of the distance between the sides.
@@ -182,31 +187,31 @@ public:
   /// in the planes that bisect acute edges, and the points of creases that are as far from a feature vertex as the
   /// vertex, where creases meet at a small angle. Only those nearer to the vertex than `spacing`, its distance to the
   /// nearest other vertex. An image within a quarter of the distance to the vertex from a crease lies on the crease;
-  /// one as near to a feature vertex isn't needed, and one as far from the boundary doesn't exist.
+  /// one as near to a feature vertex isn't needed, and one as far from the boundary doesn't exist. Images are off the
+  /// boundary by up to 1e-11 of its largest coordinate, at random: see `off_symmetry()`.
   template <class Visit>
   void visit_mirror_images(const Point& p, const Vertex_location_3& at, double spacing, const Visit& visit) const
   {
-    if (at.dimension == 1)
-      shells_.visit_images(
-          p, at.index, spacing,
-          [this](int crease) -> const std::vector<Point>& { return creases_.crease_points(crease); },
-          [&](const Point& image, int crease) {
-            visit(image, Vertex_location_3{1, crease});
-          });
-    const int patch = at.dimension == 2 ? at.index : -1;
-    acute_edges_.visit_images(p, patch, spacing, [&](const Point& image, const internal::Xyz_3&) {
+    const auto take = [&](const Point& image, const Vertex_location_3& location) {
+      visit(off_symmetry(image, p), location);
+    };
+    if (at.dimension == 1) {
+      const auto points_of = [this](int crease) -> const std::vector<Point>& { return creases_.crease_points(crease); };
+      shells_.visit_images(p, at.index, spacing, points_of, [&](const Point& image, int crease) {
+        take(image, {1, crease});
+      });
+    }
+    acute_edges_.visit_images(p, at.dimension == 2 ? at.index : -1, spacing, [&](const Point& image) {
       const double near = 0.0625 * CGAL::squared_distance(p, image);
       int corner = -1, crease = -1;
       if (number_of_corners() > 0 && CGAL::squared_distance(corners_.nearest(image, corner), image) < near) return;
-      if (number_of_creases() > 0) {
-        const Point on_crease = creases_.project(image, crease);
-        if (CGAL::squared_distance(on_crease, image) < near) {
-          visit(on_crease, Vertex_location_3{1, crease});
-          return;
-        }
+      const Point on_crease = creases_.project(image, crease);
+      if (crease >= 0 && CGAL::squared_distance(on_crease, image) < near) {
+        take(on_crease, {1, crease});
+        return;
       }
       const Surface_hit_3<K> hit = closest(image);
-      if (CGAL::squared_distance(hit.point, image) < near) visit(hit.point, Vertex_location_3{2, hit.patch});
+      if (CGAL::squared_distance(hit.point, image) < near) take(hit.point, {2, hit.patch});
     });
   }
 
@@ -344,6 +349,27 @@ private:
     creases_ = Crease_network_3<K>(std::move(corners), std::move(creases));
   }
 
+  /// Two triangles that are mirror images of each other have their six vertices on a sphere, and with rounding alone
+  /// to decide, the Delaunay triangulation has flat cells among them, of two vertices and their images. A distance from
+  /// the sphere that is much larger than rounding, and toward the original, so that it leaves those four in a plane,
+  /// leaves none: the ball of four points that are off a common circle, but hardly off a plane, is huge. That is what
+  /// weights would do. \returns the image moved by a random part of 1e-11 of the largest coordinate either way.
+  Point off_symmetry(const Point& image, const Point& original) const
+  {
+    std::uint64_t hash = 0; // of the image: a function of it alone
+    for (const double x : {image.x(), image.y(), image.z()}) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &x, sizeof bits);
+      hash = (hash ^ bits) * 0x9e3779b97f4a7c15;
+      hash ^= hash >> 29;
+      hash *= 0xbf58476d1ce4e5b9;
+      hash ^= hash >> 32;
+    }
+    const double shift = 1e-11 * largest_coordinate_ * (2 * static_cast<double>(hash >> 11) * 0x1p-53 - 1);
+    const internal::Xyz_3 to = internal::unit_vector(internal::minus(internal::xyz(original), internal::xyz(image)));
+    return Point(image.x() + shift * to[0], image.y() + shift * to[1], image.z() + shift * to[2]);
+  }
+
   void build_acute_edges()
   {
     acute_edges_ = internal::Acute_edges_3<K>(complex_, acute_angle);
@@ -356,6 +382,8 @@ private:
         corners.push_back({corner(i), corner(i), static_cast<int>(i)});
       corners_ = internal::Segment_hierarchy_3<K>(corners);
     }
+    for (const Point& p : complex_.points)
+      largest_coordinate_ = (std::max)({largest_coordinate_, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
     shells_ = internal::Crease_shells_3<K>(complex_, [&](std::size_t vertex) {
       return internal::radians_per_degree * (is_at_acute_edge[vertex] ? acute_angle : shell_angle);
     });
@@ -398,6 +426,7 @@ private:
   internal::Acute_edges_3<K> acute_edges_;
   internal::Crease_shells_3<K> shells_;
   internal::Segment_hierarchy_3<K> corners_; ///< feature vertices as segments; empty without acute edges
+  double largest_coordinate_ = 0;
 };
 
 } // namespace weft

@@ -63,6 +63,8 @@ private:
     }
   };
 
+  const Judge& judge() const { return mender_.perturber().judge(); }
+
   bool goes_on()
   {
     return !mender_.is_late() && report_.after < options_.target && (!options_.go_on || options_.go_on(report_.after));
@@ -76,8 +78,8 @@ private:
     double smallest = -1;
     std::vector<std::pair<double, Cell_handle>> cells;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (c->subdomain() == 0) continue;
-      const Dihedral_cosines_3 x = cosines_of_cell(c);
+      if (c->subdomain() == 0 || judge().is_locked(c)) continue;
+      const Dihedral_cosines_3 x = judge().cosines(c);
       smallest = (std::max)(smallest, x.smallest);
       if (most > 0 && sliver_measure(x) > target) cells.emplace_back(sliver_measure(x), c);
     }
@@ -127,8 +129,8 @@ private:
   {
     std::vector<Candidate> all(mesh_.vertices().size());
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (c->subdomain() == 0) continue;
-      const double x = Judge::measure(c);
+      if (c->subdomain() == 0 || judge().is_locked(c)) continue;
+      const double x = judge().measure(c);
       if (x <= mender_.bound()) continue;
       for (int i = 0; i < 4; ++i) {
         const Vertex_handle v = c->vertex(i);
@@ -148,8 +150,8 @@ private:
   {
     std::vector<Sliver_3> slivers;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (c->subdomain() == 0) continue;
-      const double x = Judge::measure(c);
+      if (c->subdomain() == 0 || judge().is_locked(c)) continue;
+      const double x = judge().measure(c);
       if (x > mender_.bound()) slivers.push_back(Mender::sliver_of(c, x));
     }
     std::sort(slivers.begin(), slivers.end());

@@ -16,6 +16,7 @@
 #include <weft/spatial/optimise/coarsen_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
+#include <weft/spatial/refine/fix_twins_3.h>
 #include <weft/spatial/refine/interior_lattice_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
@@ -99,6 +100,7 @@ public:
   /// The second half; does nothing if the first was stopped.
   void optimise()
   {
+    if (goes_on_) fix_twins(mesh_);
     goes_on_ = goes_on_ && coarsen_and_smooth();
     run_.begin_stage("perturbation", Stage::polishing);
     if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
