@@ -196,7 +196,7 @@ private:
   }
 
   /// At a distance of d the sides are about d times the angle apart; a ball of half of that can't mix them up.
-  static double reach_at(double angle) { return 1 + 2 / (std::max)(angle, 0.01); }
+  static double reach_at(double angle) { return 1 + 2 / (std::max)(angle, 1e-4); }
 
   static Xyz_3 unit(const Xyz_3& a)
   {

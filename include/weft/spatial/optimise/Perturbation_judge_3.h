@@ -177,17 +177,14 @@ public:
   void forget(int id) { guard_.forget(id); }
 
 private:
-  bool may_be_forced(const Dihedral_cosines_3& x) const
-  {
-    return is_about_angles_ && (x.smallest > wanted_cosine_ || x.largest < -wanted_cosine_);
-  }
+  bool may_be_forced(const Dihedral_cosines_3& x) const { return is_about_angles_ && x.smallest > wanted_cosine_; }
 
   /// The dihedral angles of a cell that fills the wedge at an edge of the input in proportion to those wanted there:
   /// the perturber leaves a cell alone that has a good part of the angle.
   static Dihedral_cosines_3 relative(const Dihedral_cosines_3& x, double forcing_angle)
   {
-    const double attainable = part_of_angle * forcing_angle;
-    if (attainable >= wanted) return x;
+    if (forcing_angle > largest_forcing_angle) return x;
+    const double attainable = (std::max)((std::min)(part_of_angle * forcing_angle, wanted), least_part * forcing_angle);
     const double degrees = degrees_of_cosine(x.smallest);
     return {degrees >= attainable ? -1. : cosine_of_degrees(degrees * wanted / attainable), x.largest};
   }
@@ -200,8 +197,10 @@ private:
     return result;
   }
 
-  static constexpr double wanted = 20;         ///< degrees: what is asked for where nothing forces less
-  static constexpr double part_of_angle = 0.8; ///< of the angle of an edge that is attained beside it
+  static constexpr double wanted = 20; ///< degrees: what is asked for where nothing forces less
+  /// Parts of the angle of an edge: what is attained beside it, and what is asked for where that is more than `wanted`.
+  static constexpr double part_of_angle = 0.8, least_part = 0.62;
+  static constexpr double largest_forcing_angle = 40; ///< degrees
 
   /// A cell that fills the place of a vertex taken away.
   struct Filler
@@ -243,7 +242,7 @@ private:
   const Restricted* mesh_;
   Criteria_guard_3<Restricted>& guard_;
   bool is_about_angles_ = mesh_->oracle().has_mirror_images();
-  double wanted_cosine_ = cosine_of_degrees(wanted);
+  double wanted_cosine_ = cosine_of_degrees(least_part * largest_forcing_angle);
   Vertex_location_3 location_{3, 0};
   std::vector<Filler> filling_;
   Zone zone_;

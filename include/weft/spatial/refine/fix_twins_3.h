@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Keeps optimisation from parting twins, see Mirror_twins_3.h: where two sheets are much nearer to each other than
-// vertices on them are, moving one of a pair makes flat cells that nothing mends.
+// Keeps optimisation from parting twins, see Mirror_twins_3.h: where two sheets are nearer to each other than vertices
+// on them are, moving one of a pair makes flat cells that hardly anything mends.
 
 #ifndef WEFT_SPATIAL_REFINE_FIX_TWINS_3_H
 #define WEFT_SPATIAL_REFINE_FIX_TWINS_3_H
 
+#include <weft/spatial/criteria/forced_elements_3.h>
+#include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
+#include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
@@ -19,8 +22,8 @@
 
 namespace weft::internal {
 
-/// Makes vertices stay that have a twin nearer than half the distance to any other vertex. O(n log n).
-/// \tparam Restricted a Restricted_delaunay_3.
+/// Makes vertices stay that have a twin, nearer than any other vertex, across an edge of a very acute angle. O(n log
+/// n). \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
 void fix_twins(Restricted& mesh)
 {
@@ -30,8 +33,8 @@ void fix_twins(Restricted& mesh)
   const auto distance = [](const Point& p, const Point& q) {
     return std::sqrt(CGAL::to_double(CGAL::squared_distance(p, q)));
   };
-  constexpr double same = 1e-6; // part of the distance of twins
-  constexpr double near = 0.5;
+  constexpr double same = 1e-6;        // part of the distance of twins
+  constexpr double largest_angle = 30; // degrees; at larger ones optimisation makes good cells of any
   std::vector<Vertex_handle> neighbours, twins;
   for (const Vertex_handle v : mesh.vertices()) {
     if (v->location().dimension > 2) continue;
@@ -59,10 +62,33 @@ void fix_twins(Restricted& mesh)
       if (std::find(twins.begin(), twins.end(), w) == twins.end())
         spacing = (std::min)(spacing, distance(v->point(), w->point()));
     for (const Vertex_handle w : twins) {
-      if (distance(v->point(), w->point()) >= near * spacing) continue;
-      mesh.fix(v);
-      mesh.fix(w);
+      const double apart = distance(v->point(), w->point());
+      if (apart >= spacing) continue;
+      const auto middle = CGAL::midpoint(v->point(), w->point());
+      if (mesh.oracle().acute_angle_at(middle, 0.5 * apart) > largest_angle) continue;
+      mesh.fix_with_twin(v);
+      mesh.fix_with_twin(w);
     }
+  }
+}
+
+/// Lets the vertices of cells move again that `fix_twins()` has made stay, where the cells are worse than what the
+/// input forces: more than a third less than its angle, or nearly flat. Linear.
+template <class Restricted>
+void release_bad_twins(Restricted& mesh)
+{
+  if (!mesh.oracle().has_mirror_images()) return;
+  constexpr double least_part = 0.65, largest = 155; // degrees
+  for (const auto c : mesh.triangulation().finite_cell_handles()) {
+    if (c->subdomain() == 0) continue;
+    const double angle = forcing_angle(
+        mesh.oracle(),
+        {{c->vertex(0)->location(), c->vertex(1)->location(), c->vertex(2)->location(), c->vertex(3)->location()}},
+        c->circumcenter(), c->vertex(0)->point());
+    if (angle >= 180) continue;
+    const Dihedral_cosines_3 x = cosines_of_cell(c);
+    if (degrees_of_cosine(x.smallest) >= least_part * angle && degrees_of_cosine(x.largest) <= largest) continue;
+    for (int i = 0; i < 4; ++i) mesh.release_from_twin(c->vertex(i));
   }
 }
 

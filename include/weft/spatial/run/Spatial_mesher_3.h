@@ -223,6 +223,7 @@ private:
 
   void perturb()
   {
+    release_bad_twins(mesh_);
     Perturb_options_3 options;
     options.target = options_.min_dihedral_angle;
     // Where something is bad, the input has angles so small that the worst cells stay, whatever is done about them.
