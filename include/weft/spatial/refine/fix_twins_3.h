@@ -6,8 +6,6 @@
 #ifndef WEFT_SPATIAL_REFINE_FIX_TWINS_3_H
 #define WEFT_SPATIAL_REFINE_FIX_TWINS_3_H
 
-#include <weft/spatial/criteria/forced_elements_3.h>
-#include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -69,26 +67,6 @@ void fix_twins(Restricted& mesh)
       mesh.fix_with_twin(v);
       mesh.fix_with_twin(w);
     }
-  }
-}
-
-/// Lets the vertices of cells move again that `fix_twins()` has made stay, where the cells are worse than what the
-/// input forces: more than a third less than its angle, or nearly flat. Linear.
-template <class Restricted>
-void release_bad_twins(Restricted& mesh)
-{
-  if (!mesh.oracle().has_mirror_images()) return;
-  constexpr double least_part = 0.65, largest = 155; // degrees
-  for (const auto c : mesh.triangulation().finite_cell_handles()) {
-    if (c->subdomain() == 0) continue;
-    const double angle = forcing_angle(
-        mesh.oracle(),
-        {{c->vertex(0)->location(), c->vertex(1)->location(), c->vertex(2)->location(), c->vertex(3)->location()}},
-        c->circumcenter(), c->vertex(0)->point());
-    if (angle >= 180) continue;
-    const Dihedral_cosines_3 x = cosines_of_cell(c);
-    if (degrees_of_cosine(x.smallest) >= least_part * angle && degrees_of_cosine(x.largest) <= largest) continue;
-    for (int i = 0; i < 4; ++i) mesh.release_from_twin(c->vertex(i));
   }
 }
 

@@ -103,15 +103,15 @@ public:
 
   /// Makes a vertex stay where it is: neither smoothing nor perturbation nor coarsening touch it from now on.
   void fix(Vertex_handle v) { set_fixed(v, fixed_for_good); }
-  /// The same because of a twin, so that it may be undone.
+  /// The same because of a twin beside a small angle of the boundary; it may move within rounding.
   void fix_with_twin(Vertex_handle v)
   {
     if (!is_fixed(v)) set_fixed(v, fixed_with_twin);
   }
-  void release_from_twin(Vertex_handle v)
+  bool is_fixed_with_twin(Vertex_handle v) const
   {
     const auto id = static_cast<std::size_t>(v->id());
-    if (id < fixed_.size() && fixed_[id] == fixed_with_twin) fixed_[id] = 0;
+    return v->id() >= 0 && id < fixed_.size() && fixed_[id] == fixed_with_twin;
   }
   /// Whether a vertex must stay: a feature vertex, or one that was fixed.
   bool is_fixed(Vertex_handle v) const

@@ -16,6 +16,7 @@
 #include <weft/spatial/optimise/coarsen_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
+#include <weft/spatial/optimise/turn_diagonals_3.h>
 #include <weft/spatial/refine/fix_twins_3.h>
 #include <weft/spatial/refine/interior_lattice_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
@@ -223,7 +224,7 @@ private:
 
   void perturb()
   {
-    release_bad_twins(mesh_);
+    turn_diagonals(mesh_, guard(), options_.seed + 3);
     Perturb_options_3 options;
     options.target = options_.min_dihedral_angle;
     // Where something is bad, the input has angles so small that the worst cells stay, whatever is done about them.
