@@ -86,6 +86,22 @@ public:
   /// Which creases and patches meet. Linear in the size of the complex, but for a factor log(number of sharp edges).
   Feature_incidence_3 incidence() const { return Feature_incidence_3(complex_); }
 
+  /// Unit normal of a triangle that a query has hit, pointing out of a subdomain; zero if that doesn't lie beside it,
+  /// or the triangle has no area.
+  std::array<double, 3> normal(int triangle, int subdomain) const
+  {
+    const auto t = static_cast<std::size_t>(triangle);
+    const auto [behind, before] = sides(t);
+    if (behind == before || (behind != subdomain && before != subdomain)) return {};
+    const auto& v = complex_.triangles[t];
+    const auto at = [&](std::size_t i) { return internal::xyz(complex_.points[v[i]]); };
+    auto n = internal::cross_product(internal::minus(at(1), at(0)), internal::minus(at(2), at(0)));
+    const double length = internal::norm(n);
+    if (!(length > 0)) return {};
+    for (double& x : n) x /= behind == subdomain ? length : -length;
+    return n;
+  }
+
   /// Bounding box of the boundary.
   CGAL::Bbox_3 bbox() const { return surface_.bbox(); }
 
@@ -205,8 +221,7 @@ public:
     std::vector<internal::Boundary_facet_3> boundaries;
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
       const auto& v = complex_.triangles[t];
-      const auto [behind, before] =
-          complex_.sides.empty() ? std::make_pair(1, 0) : complex_.sides[static_cast<std::size_t>(complex_.patches[t])];
+      const auto [behind, before] = sides(t);
       if (behind != 0) boundaries.push_back({behind, v});
       if (before != 0) boundaries.push_back({before, {v[0], v[2], v[1]}});
     }
@@ -266,6 +281,13 @@ private:
   static constexpr double acute_angle = 60; // degrees; from there on refinement ends by itself
 
   using Triangle = internal::Surface_triangle_3<K>;
+
+  /// The subdomains behind and before a triangle.
+  std::pair<int, int> sides(std::size_t t) const
+  {
+    return complex_.sides.empty() ? std::make_pair(1, 0)
+                                  : complex_.sides[static_cast<std::size_t>(complex_.patches[t])];
+  }
 
   void build_surface()
   {

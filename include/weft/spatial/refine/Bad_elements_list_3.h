@@ -8,6 +8,7 @@
 
 #include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Badness_measure_3.h>
+#include <weft/spatial/criteria/facet_turn_3.h>
 #include <weft/spatial/refine/Steiner_chooser_3.h>
 
 #include <CGAL/centroid.h>
@@ -169,8 +170,12 @@ private:
   {
     if constexpr (!Restricted::Oracle::labels_first) {
       for (const Facet_id_3& id : unseen_)
-        if (const Restricted_facet* f = find_facet(mesh_, id); f && is_far(*f))
-          facets_.push_back({id, Measure::just_bad, true, must_be_refined(bad_approximation, f->crossings > 1), false});
+        if (const Restricted_facet* f = find_facet(mesh_, id)) {
+          const bool is_turned = cosine_to_surface(mesh_, *f) < least_cosine_to_surface;
+          if (is_turned || is_far(*f))
+            facets_.push_back({id, Measure::just_bad, !is_turned,
+                               !is_turned && must_be_refined(bad_approximation, f->crossings > 1), false});
+        }
     }
     unseen_.clear();
   }
