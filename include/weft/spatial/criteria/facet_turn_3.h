@@ -59,8 +59,7 @@ double cosine_to_surface(const Restricted& mesh, const typename Restricted::Rest
       Xyz_3 p;
       for (std::size_t k = 0; k < 3; ++k)
         p[k] = (1 - inwards) * corners[i][k] + inwards * (corners[0][k] + corners[1][k] + corners[2][k]) / 3;
-      const auto hit =
-          mesh.oracle().project_on_patch(typename Restricted::Point(p[0], p[1], p[2]), f.patch);
+      const auto hit = mesh.oracle().project_on_patch(typename Restricted::Point(p[0], p[1], p[2]), f.patch);
       least = (std::min)(least, cosine(hit.triangle));
     }
     return least;
