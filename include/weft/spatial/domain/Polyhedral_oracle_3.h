@@ -273,11 +273,46 @@ public:
     }
   }
 
+  /// Calls `visit(point, unit normal, area)` for n points of the boundary, each of which stands for the same area.
+  /// O(triangles).
+  template <class Visit>
+  void visit_spread_points(std::size_t n, const Visit& visit) const
+  {
+    using internal::Xyz_3;
+    const auto corner = [this](std::size_t t, std::size_t i) {
+      return internal::xyz(complex_.points[complex_.triangles[t][i]]);
+    };
+    const auto cross_product = [&](std::size_t t) {
+      return internal::cross_product(internal::minus(corner(t, 1), corner(t, 0)),
+                                     internal::minus(corner(t, 2), corner(t, 0)));
+    };
+    double total = 0, passed = 0;
+    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) total += internal::norm(cross_product(t)) / 2;
+    std::size_t k = 0;
+    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
+      Xyz_3 normal = cross_product(t);
+      const double length = internal::norm(normal);
+      if (!(length > 0)) continue;
+      for (double& x : normal) x /= length;
+      const double n_as_double = static_cast<double>(n);
+      for (passed += length / 2; k < n && (static_cast<double>(k) + 0.5) / n_as_double * total < passed; ++k) {
+        double u = internal::radical_inverse(k + 1, 2), v = internal::radical_inverse(k + 1, 3);
+        if (u + v > 1) u = 1 - u, v = 1 - v;
+        const Xyz_3 a = corner(t, 0), ab = internal::minus(corner(t, 1), a), ac = internal::minus(corner(t, 2), a);
+        visit(Point(a[0] + u * ab[0] + v * ac[0], a[1] + u * ab[1] + v * ac[1], a[2] + u * ab[2] + v * ac[2]), normal,
+              total / n_as_double);
+      }
+    }
+  }
+
   /// Distance from a point of the boundary to where the boundary is met again along a normal, on either side; at most
   /// `reach`, which it is for a zero normal.
   double thickness(const Point& p, const std::array<double, 3>& normal, double reach) const
   {
     if (normal == std::array<double, 3>()) return reach;
+    const CGAL::Bbox_3 b = bbox();
+    // The point itself is on the boundary, up to rounding.
+    const double least = 1e-12 * std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
     double nearest = reach;
     std::vector<Surface_hit_3<K>> hits;
     for (const double side : {-1., 1.}) {
@@ -285,7 +320,7 @@ public:
         return Point(p.x() + side * d * normal[0], p.y() + side * d * normal[1], p.z() + side * d * normal[2]);
       };
       hits.clear();
-      surface_.intersect(at(1e-3 * reach), at(nearest), hits);
+      surface_.intersect(at(least), at(nearest), hits);
       for (const auto& hit : hits)
         nearest = (std::min)(nearest, internal::norm(internal::minus(internal::xyz(hit.point), internal::xyz(p))));
     }
