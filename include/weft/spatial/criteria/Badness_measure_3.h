@@ -144,11 +144,15 @@ public:
     return badness;
   }
 
-  /// Distance from the circumcenter of a facet to its Steiner point.
-  double approximation_error(const typename Restricted::Restricted_facet& f) const
+  /// Distance from the circumcenter of a facet to its Steiner point, which lies on the axis of the facet: its height
+  /// above the facet. The root of the difference of two squared radii would lose half of the digits.
+  static double approximation_error(const typename Restricted::Restricted_facet& f)
   {
-    const double r = facet_squared_radius(vertex(f, 1)->point(), vertex(f, 2)->point(), vertex(f, 3)->point());
-    return std::sqrt((std::max)(0.0, f.squared_radius - r)); // Pythagoras: both lie on the axis of the facet
+    const Point &a = vertex(f, 1)->point(), &b = vertex(f, 2)->point(), &c = vertex(f, 3)->point();
+    const auto normal = CGAL::cross_product(b - a, c - a);
+    const double length = std::sqrt(CGAL::to_double(normal.squared_length()));
+    if (!(length > 0)) return std::sqrt(f.squared_radius); // without an area it has no axis
+    return std::abs(CGAL::to_double((f.steiner - a) * normal)) / length;
   }
 
   /// A point of the surface that a facet misses.
