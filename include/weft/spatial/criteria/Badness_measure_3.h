@@ -114,7 +114,7 @@ public:
       if (!badness.is_bad()) badness.add(worst_missed_point(f).ratio, bad_approximation);
     }
     const auto own = criteria_->patches.find(f.patch);
-    if (own != criteria_->patches.end()) add_own_criteria(f, v, shortest, radius, own->second, badness);
+    if (own != criteria_->patches.end()) add_own_criteria(v, shortest, radius, own->second, badness);
     if (criteria_->facet_demand && factor_ <= 1)
       badness.add(criteria_->facet_demand({{{&v[0]->point(), &v[1]->point(), &v[2]->point()}},
                                            {{v[0]->location(), v[1]->location(), v[2]->location()}},
@@ -271,8 +271,8 @@ private:
       badness.add(std::sqrt(squared(circumcenter, *p[0]) / shortest) / (factor_ * own.cell_shape), bad_shape);
   }
 
-  void add_own_criteria(const typename Restricted::Restricted_facet& f, const Vertex_handle (&v)[3], double shortest,
-                        double squared_radius, const Patch_criteria_3<Kernel>& own, Badness_3& badness) const
+  void add_own_criteria(const Vertex_handle (&v)[3], double shortest, double squared_radius,
+                        const Patch_criteria_3<Kernel>& own, Badness_3& badness) const
   {
     if (own.size)
       for (int i = 0; i < 3; ++i) add_edge(v[i]->point(), v[(i + 1) % 3]->point(), own.size, badness);
