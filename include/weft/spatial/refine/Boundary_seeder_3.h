@@ -6,7 +6,10 @@
 #ifndef WEFT_SPATIAL_REFINE_BOUNDARY_SEEDER_3_H
 #define WEFT_SPATIAL_REFINE_BOUNDARY_SEEDER_3_H
 
+#include <weft/internal/boxes/Point_grid_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/domain/Boundary_distance_3.h>
+#include <weft/spatial/domain/boundary_samples_3.h>
 #include <weft/spatial/refine/Crease_divider_3.h>
 #include <weft/spatial/refine/Mirror_twins_3.h>
 
@@ -17,6 +20,8 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -53,7 +58,8 @@ public:
     }
     for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) {
       const auto& points = mesh_.creases().points(c);
-      const Crease_divider_3<Kernel> divider(points, criteria_);
+      const Crease_divider_3<Kernel> divider(points, criteria_,
+                                             mesh_.incidence().patches_of_crease(static_cast<int>(c)));
       const std::size_t least = points.front() == points.back() ? 3 : 1, parts = divider.parts(least);
       for (std::size_t k = oracle.crease_is_closed(static_cast<int>(c)) ? 0 : 1; k < parts; ++k) {
         if (k >= least && !has_room()) break;
@@ -81,6 +87,38 @@ public:
     return inserted;
   }
 
+  /// Inserts points of the boundary that no facet of their patch is near to; returns how many there were. Refinement
+  /// sees a surface only where facets are, and goes on from there ring by ring: this takes it to where none are.
+  std::size_t seed_missed()
+  {
+    const auto& oracle = mesh_.oracle();
+    using Oracle = std::decay_t<decltype(oracle)>;
+    if constexpr (Has_boundary_samples_3<Oracle>::value) {
+      if (!criteria_.approximation || !criteria_.approximation.is_constant()) return 0;
+      const double approximation = criteria_.approximation.constant();
+      Boundary_distance_3<Kernel> distance(static_cast<std::size_t>(oracle.number_of_patches()), 0);
+      for (const auto& f : mesh_.facets()) {
+        if (f.cell == typename Restricted::Cell_handle()) continue;
+        const auto at = [&f](int i) { return f.cell->vertex((f.index + i) % 4)->point(); };
+        distance.add_facet(at(1), at(2), at(3), f.patch);
+      }
+      distance.build();
+      std::vector<std::pair<Point, Vertex_location_3>> missed;
+      Point_grid_3 chosen(0.25 * approximation);
+      const auto bound = [approximation](const Point&, int) { return approximation; };
+      visit_missed_samples(oracle, distance, spacing_of_missed * approximation, bound,
+                           [&](const Point& p, int patch, double tolerance) {
+                             if (mesh_.vertices().size() + missed.size() >= most_vertices_) return;
+                             if (chosen.add(xyz(p), tolerance)) missed.push_back({p, {2, patch}});
+                           });
+      const std::size_t before = mesh_.vertices().size();
+      for (const auto& [p, location] : missed) insert_with_twins(p, location); // one by one: some may be vertices
+      return mesh_.vertices().size() - before;
+    } else {
+      return 0;
+    }
+  }
+
 private:
   /// The same where creases meet at small angles: the longest first, and of the others what twins have left.
   void insert_crease_seeds_with_twins()
@@ -90,7 +128,8 @@ private:
     std::vector<Crease_divider_3<Kernel>> dividers;
     std::vector<std::size_t> order;
     for (std::size_t c = 0; c < n; ++c) {
-      dividers.emplace_back(mesh_.creases().points(c), criteria_);
+      dividers.emplace_back(mesh_.creases().points(c), criteria_,
+                            mesh_.incidence().patches_of_crease(static_cast<int>(c)));
       order.push_back(c);
     }
     std::stable_sort(order.begin(), order.end(),
@@ -138,7 +177,8 @@ private:
 
   bool has_room() const { return mesh_.vertices().size() < most_vertices_; }
 
-  static constexpr std::size_t most_seeds = 40; ///< of a patch
+  static constexpr std::size_t most_seeds = 40;  ///< of a patch
+  static constexpr double spacing_of_missed = 4; ///< in approximation bounds: of the points looked at
 
   Restricted& mesh_;
   const Criteria_3<Kernel>& criteria_;
