@@ -94,6 +94,8 @@ inline Json to_json(const Mesh_report_3& r)
           {"bad_edges", to_json(r.bad_edges)},
           {"bad_facets", to_json(r.bad_facets)},
           {"bad_cells", to_json(r.bad_cells)},
+          {"forced_facets", r.forced_facets},
+          {"forced_cells", r.forced_cells},
           {"bad_vertices", r.bad_vertices},
           {"bare_patches", r.bare_patches},
           {"domain", to_json(r.domain)},

@@ -58,6 +58,20 @@ public:
     return badness;
   }
 
+  /// Whether a cell violates a bound on its shape that doesn't apply to it, since the input forces its shape.
+  bool has_forced_shape(Cell_handle c) const
+  {
+    return (labelled_cell(points(c), c, true).reasons & bad_shape) != 0 && is_forced(*mesh_, c);
+  }
+
+  /// The same for a restricted facet.
+  bool has_forced_shape(const typename Restricted::Restricted_facet& f) const
+  {
+    const Point &a = vertex(f, 1)->point(), &b = vertex(f, 2)->point(), &c = vertex(f, 3)->point();
+    const double shortest = (std::min)({squared(a, b), squared(b, c), squared(c, a)});
+    return has_forced_shape(f, std::sqrt(facet_squared_radius(a, b, c) / shortest));
+  }
+
   /// A cell that has its circumcenter, but no label yet: size and shape as asked for everywhere.
   Badness_3 unlabelled_cell(Cell_handle c) const
   {
@@ -117,8 +131,7 @@ public:
     const auto own = criteria_->patches.find(f.patch);
     const bool has_own = own != criteria_->patches.end();
     const double ratio = std::sqrt(radius / shortest);
-    const double shape = tighter(criteria_->facet_shape, has_own ? own->second.facet_shape : 0);
-    const bool with_shape = !(shape > 0 && ratio > factor_ * shape && is_forced(*mesh_, f, shape));
+    const bool with_shape = !has_forced_shape(f, ratio);
     if (with_shape && criteria_->facet_shape > 0) badness.add(ratio / (factor_ * criteria_->facet_shape), bad_shape);
     if (const double bound = approximation(f.steiner, f.patch); bound > 0) {
       badness.add(approximation_error(f) / bound, bad_approximation);
@@ -254,6 +267,14 @@ private:
   static std::array<const Point*, 4> points(Cell_handle c)
   {
     return {{&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()}};
+  }
+
+  /// \param ratio of its circumradius to its shortest edge.
+  bool has_forced_shape(const typename Restricted::Restricted_facet& f, double ratio) const
+  {
+    const auto own = criteria_->patches.find(f.patch);
+    const double bound = tighter(criteria_->facet_shape, own == criteria_->patches.end() ? 0 : own->second.facet_shape);
+    return bound > 0 && ratio > factor_ * bound && is_forced(*mesh_, f, bound);
   }
 
   /// The smaller of two bounds, of which 0 is none.

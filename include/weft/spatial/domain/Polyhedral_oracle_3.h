@@ -433,10 +433,11 @@ private:
   /// weights would do. \returns the image moved by a random part of 1e-11 of the largest coordinate either way.
   Point off_symmetry(const Point& image, const Point& original) const
   {
-    std::uint64_t hash = 0; // of the image: a function of it alone
+    std::uint64_t hash = 0; // of the image, in units of a power of two: scaling by another changes nothing
     for (const double x : {image.x(), image.y(), image.z()}) {
+      const double scaled = std::scalbn(x, -std::ilogb(largest_coordinate_));
       std::uint64_t bits = 0;
-      std::memcpy(&bits, &x, sizeof bits);
+      std::memcpy(&bits, &scaled, sizeof bits);
       hash = (hash ^ bits) * 0x9e3779b97f4a7c15;
       hash ^= hash >> 29;
       hash *= 0xbf58476d1ce4e5b9;
