@@ -5,6 +5,7 @@
 #ifndef WEFT_INTERNAL_RUN_RUN_H
 #define WEFT_INTERNAL_RUN_RUN_H
 
+#include <weft/internal/cold.h>
 #include <weft/internal/Timer.h>
 #include <weft/visitor.h>
 
@@ -35,7 +36,7 @@ public:
     stage_begin_ = timer_.seconds();
   }
 
-  void end_stage()
+  WEFT_COLD void end_stage()
   {
     if (stage_name_.empty()) return;
     auto stage = std::find_if(stages_.begin(), stages_.end(), [this](const auto& s) { return s.first == stage_name_; });
