@@ -5,7 +5,6 @@
 #ifndef WEFT_INTERNAL_RUN_RUN_H
 #define WEFT_INTERNAL_RUN_RUN_H
 
-#include <weft/internal/cold.h>
 #include <weft/internal/Timer.h>
 #include <weft/visitor.h>
 
@@ -36,7 +35,7 @@ public:
     stage_begin_ = timer_.seconds();
   }
 
-  WEFT_COLD void end_stage()
+  void end_stage()
   {
     if (stage_name_.empty()) return;
     auto stage = std::find_if(stages_.begin(), stages_.end(), [this](const auto& s) { return s.first == stage_name_; });

@@ -78,7 +78,7 @@ public:
 
   /// All constrained edges, in the order of the triangulation, with their segments. O(m log s) for m edges, s segments.
   template <class Cdt>
-  WEFT_COLD std::vector<Marked_edge<Cdt>> constrained_edges(const Cdt& cdt) const
+  WEFT_NOINLINE std::vector<Marked_edge<Cdt>> constrained_edges(const Cdt& cdt) const
   {
     constexpr int unknown = -2;
     // A vertex between input points lies on one constraint only, so it remembers the answer for both its edges.

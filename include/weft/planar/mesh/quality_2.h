@@ -157,7 +157,7 @@ double degrees_to_next_constraint(const Cdt& cdt, typename Cdt::Face_handle face
 
 /// Measures the shape of the triangles in the domain. Linear time.
 template <class Cdt>
-WEFT_COLD Quality_2 measure_quality_2(const Cdt& cdt)
+WEFT_NOINLINE Quality_2 measure_quality_2(const Cdt& cdt)
 {
   internal::Quality_gatherer_2 gatherer;
   CGAL::Unique_hash_map<typename Cdt::Vertex_handle, bool> seen(false);
