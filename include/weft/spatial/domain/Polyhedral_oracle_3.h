@@ -35,6 +35,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -310,9 +311,10 @@ public:
   double thickness(const Point& p, const std::array<double, 3>& normal, double reach) const
   {
     if (normal == std::array<double, 3>()) return reach;
-    const CGAL::Bbox_3 b = bbox();
     // The point itself is on the boundary, up to rounding.
-    const double least = 1e-12 * std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(bbox().min(k)), std::abs(bbox().max(k))});
+    const double least = 16 * std::numeric_limits<double>::epsilon() * largest;
     double nearest = reach;
     std::vector<Surface_hit_3<K>> hits;
     for (const double side : {-1., 1.}) {

@@ -45,7 +45,8 @@ public:
     const auto& oracle = mesh_.oracle();
     for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) {
       const auto& points = mesh_.creases().points(c);
-      const Crease_divider_3<Kernel> divider(points, criteria_);
+      const Crease_divider_3<Kernel> divider(points, criteria_,
+                                             mesh_.incidence().patches_of_crease(static_cast<int>(c)));
       const std::size_t least = points.front() == points.back() ? 3 : 1, parts = divider.parts(least);
       for (std::size_t k = oracle.crease_is_closed(static_cast<int>(c)) ? 0 : 1; k < parts; ++k) {
         if (k >= least && !has_room()) break;
