@@ -17,6 +17,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace weft {
 
@@ -63,6 +64,18 @@ private:
   double constant_;
   std::function<double(const Point&)> field_;
 };
+
+namespace internal {
+
+/// The smaller of two bounds at a point; 0 if there is neither.
+template <class K>
+double least_bound(const Length_field_3<K>& a, const Length_field_3<K>* b, const typename K::Point_3& p)
+{
+  const double first = a ? a(p) : 0, second = b && *b ? (*b)(p) : 0;
+  return first == 0 || second == 0 ? first + second : first < second ? first : second;
+}
+
+} // namespace internal
 
 /// What cells of one subdomain have to satisfy in addition to what holds everywhere; 0: nothing more.
 template <class K>
@@ -121,6 +134,20 @@ struct Criteria_3
   /// Any other demand: how bad an element is, above 1 if it has to be refined; called by one thread only.
   std::function<double(const Facet_view_3<K>&)> facet_demand;
   std::function<double(const Cell_view_3<K>&)> cell_demand;
+
+  /// The approximation asked for on one patch alone; null if none is.
+  const Length_field_3<K>* own_approximation(int patch) const
+  {
+    const auto own = patches.find(patch);
+    return own == patches.end() ? nullptr : &own->second.approximation;
+  }
+
+  /// The least of a bound and those of some patches alone, at a point; 0 if there is none.
+  double least_own_approximation(const std::vector<int>& of_patches, const typename K::Point_3& p, double bound) const
+  {
+    for (const int patch : of_patches) bound = internal::least_bound<K>(bound, own_approximation(patch), p);
+    return bound;
+  }
 
   /// \throws Option_error naming the first criterion out of range.
   void check() const

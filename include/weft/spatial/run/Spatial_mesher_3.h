@@ -23,6 +23,7 @@
 #include <weft/spatial/run/fill_report_3.h>
 #include <weft/spatial/run/Initial_vertices_3.h>
 #include <weft/spatial/run/Refinement_3.h>
+#include <weft/spatial/run/require_thickness_3.h>
 #include <weft/spatial/run/restart_where_bad_3.h>
 
 #include <algorithm>
@@ -69,13 +70,14 @@ public:
     meet_criteria();
     start_again_where_bad();
     optimise();
-    return report();
+    return final_report();
   }
 
   /// The first half of `run()`: refines until the criteria hold or nothing more can be done.
   void meet_criteria()
   {
     run_.begin_stage("initialisation", Stage::seeding);
+    if (!initial_) require_thickness(oracle_, criteria_, refinement_.size_floor(), options_.max_vertices);
     if (initial_) interior_ = insert_boundary(*initial_, mesh_);
     goes_on_ = initial_ ? visit(0) : refinement_.mesh_first_surface();
     run_.begin_stage("surface", Stage::refinement);
@@ -104,16 +106,11 @@ public:
     if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
   }
 
-  /// The report so far.
-  Mesh_report_3 report()
-  {
-    run_.end_stage();
-    Mesh_report_3 result = report_;
-    run_.report(result);
-    fill_report(mesh_, criteria_, refinement_.size_floor(), result);
-    refinement_.add_earlier_queries(result);
-    return result;
-  }
+  /// The report so far, but for the comparison with the domain.
+  Mesh_report_3 report() { return report(false); }
+
+  /// The report at the end.
+  Mesh_report_3 final_report() { return report(true); }
 
   /// The mesh as it is, also while a visitor is called.
   const Restricted& mesh() const { return mesh_; }
@@ -121,6 +118,16 @@ public:
   Restricted take_mesh() { return std::move(mesh_); }
 
 private:
+  Mesh_report_3 report(bool with_domain)
+  {
+    run_.end_stage();
+    Mesh_report_3 result = report_;
+    run_.report(result);
+    fill_report(mesh_, criteria_, refinement_.size_floor(), with_domain, result);
+    refinement_.add_earlier_queries(result);
+    return result;
+  }
+
   void insert_lattice()
   {
     const double spacing = lattice_spacing * criteria_.size.constant();
