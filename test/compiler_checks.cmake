@@ -16,7 +16,7 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   add_test(NAME header_examples COMMAND ${CMAKE_COMMAND}
     -D COMPILER=${CMAKE_CXX_COMPILER} -D "FLAGS=${flags}" -D SOURCE_DIR=${PROJECT_SOURCE_DIR}
     -D WORK_DIR=${CMAKE_CURRENT_BINARY_DIR}/header_examples -P ${CMAKE_CURRENT_SOURCE_DIR}/header_examples.cmake)
-  set_tests_properties(header_examples PROPERTIES LABELS headers TIMEOUT 1800)
+  set_tests_properties(header_examples PROPERTIES LABELS headers COST 70 TIMEOUT 1800)
 
   # What a compiler prints is its own: both are asked where both are installed.
   set(compilers ${CMAKE_CXX_COMPILER})
@@ -33,6 +33,6 @@ if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     add_test(NAME complaints_${name} COMMAND ${CMAKE_COMMAND}
       -D COMPILER=${compiler} -D "FLAGS=${flags}" -D SOURCE_DIR=${CMAKE_CURRENT_SOURCE_DIR}/complaints
       -D WORK_DIR=${CMAKE_CURRENT_BINARY_DIR}/complaints/${name} -P ${CMAKE_CURRENT_SOURCE_DIR}/complaints/check.cmake)
-    set_tests_properties(complaints_${name} PROPERTIES LABELS headers TIMEOUT 1800)
+    set_tests_properties(complaints_${name} PROPERTIES LABELS headers COST 80 TIMEOUT 1800)
   endforeach()
 endif()

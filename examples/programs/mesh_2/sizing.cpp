@@ -8,11 +8,16 @@
 #include <weft/planar/sizing/Lfs_sizing_2.h>
 #include <weft/planar/sizing/Region_sizing_2.h>
 
+#include <functional>
 #include <utility>
 
 namespace mesh_2_program {
 
 namespace {
+
+/// A sizing field that isn't the same everywhere. One type for all such fields: the mesher is compiled once for them,
+/// and a call costs next to nothing beside what a field computes.
+using Varying_field = std::function<double(const K::Point_2&)>;
 
 /// A sizing field of any type.
 template <class Field>
@@ -44,14 +49,13 @@ std::unique_ptr<Sizing> uniform_sizing(double size)
 
 std::unique_ptr<Sizing> lfs_sizing(const Pslg& graph, double k, double min_size)
 {
-  return std::make_unique<Sizing_by<weft::Lfs_sizing_2<K>>>(weft::Lfs_sizing_2<K>(graph, k, min_size));
+  return std::make_unique<Sizing_by<Varying_field>>(weft::Lfs_sizing_2<K>(graph, k, min_size));
 }
 
 std::unique_ptr<Sizing> region_sizing(const Cdt& cdt, const weft::Mesh_tags_2<K>& tags, double size,
                                       const std::map<int, double>& size_of_mark)
 {
-  using Field = weft::Region_sizing_2<Cdt>;
-  return std::make_unique<Sizing_by<Field>>(Field(cdt, tags, size, size_of_mark));
+  return std::make_unique<Sizing_by<Varying_field>>(weft::Region_sizing_2<Cdt>(cdt, tags, size, size_of_mark));
 }
 
 } // namespace mesh_2_program

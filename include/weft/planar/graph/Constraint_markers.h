@@ -9,6 +9,7 @@
 #define WEFT_PLANAR_GRAPH_CONSTRAINT_MARKERS_H
 
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/graph/Pslg_2.h>
 
 #include <CGAL/Unique_hash_map.h>
@@ -77,7 +78,7 @@ public:
 
   /// All constrained edges, in the order of the triangulation, with their segments. O(m log s) for m edges, s segments.
   template <class Cdt>
-  std::vector<Marked_edge<Cdt>> constrained_edges(const Cdt& cdt) const
+  WEFT_NOINLINE std::vector<Marked_edge<Cdt>> constrained_edges(const Cdt& cdt) const
   {
     constexpr int unknown = -2;
     // A vertex between input points lies on one constraint only, so it remembers the answer for both its edges.

@@ -12,6 +12,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/internal/counted.h>
 #include <weft/planar/graph/Pslg_2.h>
 
@@ -40,7 +41,7 @@ struct Face_components
 
 /// Floods the region of `start` with the next number.
 template <class Cdt>
-void flood_component(typename Cdt::Face_handle start, Face_components<Cdt>& components)
+WEFT_COLD void flood_component(typename Cdt::Face_handle start, Face_components<Cdt>& components)
 {
   const int number = components.count++;
   std::vector<typename Cdt::Face_handle> stack(1, start);
@@ -59,7 +60,7 @@ void flood_component(typename Cdt::Face_handle start, Face_components<Cdt>& comp
 
 /// Regions are numbered in the order in which the triangulation enumerates its faces.
 template <class Cdt>
-Face_components<Cdt> face_components(const Cdt& cdt)
+WEFT_COLD Face_components<Cdt> face_components(const Cdt& cdt)
 {
   Face_components<Cdt> components;
   if (cdt.dimension() < 2) return components;
@@ -71,7 +72,7 @@ Face_components<Cdt> face_components(const Cdt& cdt)
 
 /// Least number of constraints between the outside and each region: breadth first over neighbouring regions.
 template <class Cdt>
-std::vector<int> nesting_levels(const Cdt& cdt, const Face_components<Cdt>& components)
+WEFT_COLD std::vector<int> nesting_levels(const Cdt& cdt, const Face_components<Cdt>& components)
 {
   std::vector<std::vector<int>> neighbors(as_index(components.count));
   for (auto edge = cdt.constrained_edges_begin(); edge != cdt.constrained_edges_end(); ++edge) {
@@ -116,7 +117,7 @@ bool is_on_constraint(const Cdt& cdt, const typename Cdt::Point& p, typename Cdt
 
 /// Puts the chosen regions into the domain and everything else out of it.
 template <class Cdt>
-void set_domain(Cdt& cdt, const Face_components<Cdt>& components, const std::vector<char>& in_domain)
+WEFT_COLD void set_domain(Cdt& cdt, const Face_components<Cdt>& components, const std::vector<char>& in_domain)
 {
   bool empty = true;
   for (const auto face : cdt.all_face_handles()) {

@@ -11,6 +11,7 @@
 #define WEFT_PLANAR_MESH_QUALITY_2_H
 
 #include <weft/errors.h>
+#include <weft/internal/cold.h>
 #include <weft/internal/Compensated_sum.h>
 #include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/mesh/sizing_quality_2.h>
@@ -156,7 +157,7 @@ double degrees_to_next_constraint(const Cdt& cdt, typename Cdt::Face_handle face
 
 /// Measures the shape of the triangles in the domain. Linear time.
 template <class Cdt>
-Quality_2 measure_quality_2(const Cdt& cdt)
+WEFT_NOINLINE Quality_2 measure_quality_2(const Cdt& cdt)
 {
   internal::Quality_gatherer_2 gatherer;
   CGAL::Unique_hash_map<typename Cdt::Vertex_handle, bool> seen(false);

@@ -9,6 +9,7 @@
 #define WEFT_PLANAR_REFINE_GRADE_INPUT_2_H
 
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/refine/sample_constraints_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/triangulation/remove_hull_vertex_2.h>
@@ -41,7 +42,8 @@ struct Size_sources_2
 /// \param edge_factor,width_factor size to aim at, over the length of a short edge and over the width of a channel.
 /// Linear in the number of faces.
 template <class Mesh>
-Size_sources_2<typename Mesh::Point> find_input_details_2(const Mesh& mesh, double edge_factor, double width_factor)
+WEFT_COLD Size_sources_2<typename Mesh::Point> find_input_details_2(const Mesh& mesh, double edge_factor,
+                                                                    double width_factor)
 {
   using Triangulation = typename Mesh::Triangulation;
   Size_sources_2<typename Mesh::Point> sources;
@@ -80,7 +82,7 @@ Size_sources_2<typename Mesh::Point> find_input_details_2(const Mesh& mesh, doub
 /// Makes the targets of a mesh smaller near details of the input finer than the sizing field.
 /// \param sampled the mesh itself or a copy of it whose constraints have been sampled.
 template <class Mesh>
-void set_grading_2(Mesh& mesh, const Mesh& sampled)
+WEFT_COLD void set_grading_2(Mesh& mesh, const Mesh& sampled)
 {
   // Sizes at details, over edge lengths and channel widths there, and their growth with distance. The growth is the one
   // that takes the fewest Steiner points on most inputs.
@@ -94,7 +96,7 @@ void set_grading_2(Mesh& mesh, const Mesh& sampled)
 /// \param go_on callable, called now and then with the number of vertices; false stops.
 /// \returns whether it was done; constraints that need more than `max_vertices` are left alone.
 template <class Mesh, class Sizing, class Go_on>
-bool grade_input_2(Mesh& mesh, const Sizing& sizing, std::size_t max_vertices, const Go_on& go_on)
+WEFT_COLD bool grade_input_2(Mesh& mesh, const Sizing& sizing, std::size_t max_vertices, const Go_on& go_on)
 {
   typename Mesh::Triangulation copy(mesh.triangulation());
   std::vector<typename Mesh::Vertex_handle> frame; // where the sizing field need not be defined

@@ -7,6 +7,8 @@
 #ifndef WEFT_PLANAR_REFINE_LEAST_VERTICES_2_H
 #define WEFT_PLANAR_REFINE_LEAST_VERTICES_2_H
 
+#include <weft/internal/cold.h>
+
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
@@ -16,7 +18,7 @@ namespace weft::internal {
 
 /// Lower bound of the number of vertices of a Working_mesh_2 when its longest edge has this length; linear time.
 template <class Mesh>
-double least_vertices(const Mesh& mesh, double longest)
+WEFT_COLD double least_vertices(const Mesh& mesh, double longest)
 {
   double triangles = 0, on_constraints = 0;
   for (const auto f : mesh.faces())

@@ -130,6 +130,11 @@ private:
   }
 
   bool go_on() { return run_.go_on(mesh_.vertices().size(), sharp_); }
+  // For algorithms that ask whether to go on. From one place, so that what they are compiled for is one type.
+  auto asked()
+  {
+    return [this] { return go_on(); };
+  }
 
   std::size_t count_sharp() const { return refiner_.count_sharp().mendable; }
 
@@ -207,22 +212,10 @@ private:
   }
 
   // What the optimiser does, as long as the run may go on.
-  void relax()
-  {
-    optimiser_.relax(mesh_.vertices(), {move_ratio, quadrature, most_sweeps}, [this] { return go_on(); });
-  }
-  void polish_angles()
-  {
-    optimiser_.polish_angles([this] { return go_on(); });
-  }
-  void polish()
-  {
-    optimiser_.polish([this] { return go_on(); });
-  }
-  void hop()
-  {
-    optimiser_.hop((std::min)(insertions_, room()), [this] { return go_on(); });
-  }
+  void relax() { optimiser_.relax(mesh_.vertices(), {move_ratio, quadrature, most_sweeps}, asked()); }
+  void polish_angles() { optimiser_.polish_angles(asked()); }
+  void polish() { optimiser_.polish(asked()); }
+  void hop() { optimiser_.hop((std::min)(insertions_, room()), asked()); }
 
   Triangulated_outline_2<K>& outline_;
   const Sizing& sizing_;

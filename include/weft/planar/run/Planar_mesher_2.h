@@ -7,6 +7,7 @@
 #ifndef WEFT_PLANAR_RUN_PLANAR_MESHER_2_H
 #define WEFT_PLANAR_RUN_PLANAR_MESHER_2_H
 
+#include <weft/internal/cold.h>
 #include <weft/internal/run/Run.h>
 #include <weft/options.h>
 #include <weft/planar/mesh/quality_2.h>
@@ -98,6 +99,15 @@ private:
 
   bool go_on(std::size_t vertices) { return run_.go_on(vertices, bad_); }
   bool go_on() { return go_on(mesh_.vertices().size()); }
+  // For algorithms that ask whether to go on. From one place each, so that what they are compiled for is one type.
+  auto asked_with_count()
+  {
+    return [this](std::size_t n) { return go_on(n); };
+  }
+  auto asked()
+  {
+    return [this] { return go_on(); };
+  }
   void stop(Stop_reason reason) { run_.stop(reason); }
   bool is_stopped() const { return run_.is_stopped(); }
 
@@ -110,16 +120,14 @@ private:
         stop(Stop_reason::vertex_budget);
   }
 
-  void grade_input()
+  WEFT_COLD void grade_input()
   {
-    if (!grade_input_2(mesh_, sizing_, options_.max_vertices, [this](std::size_t n) { return go_on(n); }))
-      stop(Stop_reason::vertex_budget);
+    if (!grade_input_2(mesh_, sizing_, options_.max_vertices, asked_with_count())) stop(Stop_reason::vertex_budget);
   }
 
   void sample_constraints()
   {
-    if (!sample_constraints_2(mesh_, constraint_spacing, options_.max_vertices,
-                              [this](std::size_t n) { return go_on(n); }))
+    if (!sample_constraints_2(mesh_, constraint_spacing, options_.max_vertices, asked_with_count()))
       stop(Stop_reason::vertex_budget);
     mesh_.renumber();
   }
@@ -127,8 +135,7 @@ private:
   void seed()
   {
     Crystal_seeder_2<Mesh> seeder(mesh_, lattice_spacing);
-    if (!seeder.run(options_.max_vertices, [this](std::size_t n) { return go_on(n); }))
-      stop(Stop_reason::vertex_budget);
+    if (!seeder.run(options_.max_vertices, asked_with_count())) stop(Stop_reason::vertex_budget);
     mesh_.renumber();
   }
 
@@ -139,12 +146,12 @@ private:
 
   void relax(std::vector<Vertex_handle> active, const typename Mesh_optimiser_2<Mesh>::Effort& effort)
   {
-    optimiser_.relax(std::move(active), effort, [this] { return go_on(); });
+    optimiser_.relax(std::move(active), effort, asked());
   }
 
   /// Alg. 2: refinement and relaxation in turn, then the last relaxation and polishing; all over again if a criterion
   /// that held before doesn't hold afterwards. When all hold, angles are mended, too, as far as that is cheap.
-  void interleave()
+  WEFT_COLD void interleave()
   {
     optimiser_.allow_insertions(optimiser_.least_insertions + mesh_.vertices().size() / 50);
     for (int round = 0; round < most_rounds; ++round) {
@@ -196,7 +203,7 @@ private:
   }
 
   /// Batches of refinement until no element is bad; stops the run where that takes too long.
-  void refine_until_good()
+  WEFT_COLD void refine_until_good()
   {
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     int fruitless = 0; // batches since there have been so few
@@ -263,25 +270,16 @@ private:
   }
 
   // What the optimiser does, as long as the run may go on.
-  void polish_sizes()
-  {
-    optimiser_.polish_sizes([this] { return go_on(); });
-  }
-  void polish_angles()
-  {
-    optimiser_.polish_angles([this] { return go_on(); });
-  }
-  void polish()
-  {
-    optimiser_.polish([this] { return go_on(); });
-  }
+  void polish_sizes() { optimiser_.polish_sizes(asked()); }
+  void polish_angles() { optimiser_.polish_angles(asked()); }
+  void polish() { optimiser_.polish(asked()); }
   void hop()
   {
     const std::size_t n = mesh_.vertices().size();
-    optimiser_.hop(options_.max_vertices - (std::min)(n, options_.max_vertices), [this] { return go_on(); });
+    optimiser_.hop(options_.max_vertices - (std::min)(n, options_.max_vertices), asked());
   }
 
-  Mesh_report_2 finish()
+  WEFT_COLD Mesh_report_2 finish()
   {
     for (const Vertex_handle v : mesh_.vertices())
       if (v->constraint() >= 0) ++report_.constraint_steiner;

@@ -9,6 +9,7 @@
 #ifndef WEFT_PLANAR_TRIANGULATION_REMOVE_HULL_VERTEX_2_H
 #define WEFT_PLANAR_TRIANGULATION_REMOVE_HULL_VERTEX_2_H
 
+#include <weft/internal/cold.h>
 #include <weft/planar/triangulation/Relocator_2.h>
 
 #include <CGAL/enum.h>
@@ -63,7 +64,7 @@ private:
     bool operator<(const Ear& o) const { return height != o.height ? height > o.height : tip > o.tip; } // lowest on top
   };
 
-  void list_link()
+  WEFT_COLD void list_link()
   {
     auto face = cdt_.incident_faces(v_);
     while (!cdt_.is_infinite(face)) ++face;
@@ -75,7 +76,7 @@ private:
     }
   }
 
-  void queue_ear(std::size_t i)
+  WEFT_COLD void queue_ear(std::size_t i)
   {
     const Link_vertex& tip = link_[i];
     const Point &p = link_[tip.before].vertex->point(), &e = tip.vertex->point(), &q = link_[tip.after].vertex->point();
@@ -108,7 +109,7 @@ private:
   }
 
   /// Joins the vertex with the one at infinity; the two faces that hold both vanish.
-  void move_to_infinity()
+  WEFT_COLD void move_to_infinity()
   {
     const Vertex_handle infinity = cdt_.infinite_vertex();
     std::vector<Face_handle> outside, finite;

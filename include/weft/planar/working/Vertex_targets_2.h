@@ -8,6 +8,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/working/Size_memory.h>
 #include <weft/sizing/Lipschitz_sizing_2.h>
 #include <weft/sizing/Uniform_sizing.h>
@@ -121,7 +122,7 @@ public:
   }
 
 private:
-  [[noreturn]] static void throw_bad_size(const Point& p, double s)
+  [[noreturn]] WEFT_COLD static void throw_bad_size(const Point& p, double s)
   {
     std::ostringstream what;
     what << "the sizing field returned " << s << " at (" << p << "); sizes must be positive and finite";

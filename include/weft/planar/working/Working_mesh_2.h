@@ -12,6 +12,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/triangulation/Relocator_2.h>
@@ -58,7 +59,7 @@ public:
 
   /// Marks the domain by nesting parity if no face is in it yet.
   /// \throws Domain_error if there is no domain or its coordinates are out of range.
-  Working_mesh_2(Cdt& cdt, const Sizing& sizing, Given given = Given::input)
+  WEFT_COLD Working_mesh_2(Cdt& cdt, const Sizing& sizing, Given given = Given::input)
       : cdt_(cdt),
         frame_(cdt),
         relocator_(cdt, [this](Vertex_handle v) { return is_in_order(v); }),
@@ -294,7 +295,7 @@ private:
     return a == Vertex_handle() || chains_.is_between(v->point(), a->point(), b->point(), v->constraint());
   }
 
-  void check_coordinates()
+  WEFT_COLD void check_coordinates()
   {
     if (cdt_.dimension() < 2) throw Domain_error("the domain is empty: its points don't span the plane", {}, {});
     for (const Vertex_handle v : cdt_.finite_vertex_handles()) bbox_ += v->point().bbox();

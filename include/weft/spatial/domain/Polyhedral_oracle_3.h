@@ -281,7 +281,8 @@ public:
 
   /// Calls `visit(point, patch, unit normal)` for points of the boundary no farther apart than about that: the corners
   /// of triangles and points between them, up to a million a triangle; of triangles that are small beside the spacing
-  /// one in each cube of that grid that looks the same way. O(n + samples).
+  /// one in each cube of that grid that looks the same way. Normals point out of the domain, and between two subdomains
+  /// out of the one with the smaller number. O(n + samples).
   template <class Visit>
   void visit_samples(double spacing, const Visit& visit) const
   {
@@ -299,7 +300,9 @@ public:
       Xyz_3 normal = internal::cross_product(sides[0], sides[1]);
       const double length = internal::norm(normal);
       if (!(length > 0)) continue;
-      for (double& n : normal) n /= length;
+      const auto [behind, before] = this->sides(t);
+      const double outwards = behind != 0 && (before == 0 || behind < before) ? 1 : -1;
+      for (double& n : normal) n *= outwards / length;
       const auto is_short = [spacing](const Xyz_3& side) { return internal::norm(side) < spacing / 2; };
       if (std::all_of(sides.begin(), sides.end(), is_short)) {
         Xyz_3 p{};

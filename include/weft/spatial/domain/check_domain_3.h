@@ -71,10 +71,10 @@ double mean_width_of_facets(const Tetrahedral_mesh_3<K>& mesh, const Oracle& ora
 
 /// Compares a mesh with its domain.
 ///
-/// An oracle may have three more members for this; without them the comparison knows what seeds of patches tell.
+/// An oracle may have two more members for this; without them the comparison knows what seeds of patches tell.
 /// `shape()` returns a Domain_shape_3. `visit_samples(spacing, visit)` calls `visit(point, patch, unit normal)` for
-/// points of the boundary no farther apart than that, with zero for the normal where there is none. `thickness(point,
-/// normal, reach)` is the distance to where the boundary is met again along the normal, at most `reach`.
+/// points of the boundary no farther apart than that, with zero for the normal where there is none. The normal points
+/// out of the domain, and between two subdomains out of the one with the smaller number, as facets of meshes look.
 ///
 /// O((n + samples) log n) time for n elements of the mesh.
 /// \param approximation distance of facets from the boundary that was asked for, in the input's units: a number, or
@@ -118,7 +118,7 @@ Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Orac
   }
   constexpr std::size_t most_measured = 1000; // how far what is missed is off; measuring that is dear
   result.samples =
-      internal::visit_missed_samples(oracle, distance, spacing, bound_at, [&](const Point& p, int patch, double) {
+      internal::visit_missed_samples(oracle, distance, spacing, bound_at, [&](const Point& p, int patch, const auto&) {
         if (++result.missed_patch_samples <= most_measured)
           result.largest_distance = std::max(result.largest_distance, distance.distance_to_facets(p, patch));
         if (missed) missed->push_back({p, patch});

@@ -18,6 +18,7 @@
 #include <sstream>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace weft::internal {
 
@@ -38,32 +39,34 @@ struct Has_spread_points_3<Oracle, std::void_t<decltype(std::declval<const Oracl
 
 /// O(size of the domain), and some hundred queries. Of oracles without `visit_spread_points()` nothing is known.
 /// \param most_vertices that the mesh may have.
-/// \throws Domain_error if most of the boundary is nearer to another part of it than the size floor, or if the mesh
+/// \throws Domain_error if a fifth of the boundary is nearer to another part of it than the size floor, or if the mesh
 ///   would take more vertices than it may have; says how thin the domain is, where, and what to do.
 template <class Oracle>
 void require_thickness(const Oracle& oracle, const Criteria_3<typename Oracle::Kernel>& criteria, double size_floor,
                        std::size_t most_vertices)
 {
   if constexpr (Has_spread_points_3<Oracle>::value) {
+    using Point = typename Oracle::Point;
     constexpr std::size_t samples = 400;
     constexpr double per_square = 0.55; // vertices per area in squares of the thickness: measured on rods and plates
-    constexpr double much = 0.2;        // of the boundary
+    constexpr double much = 0.2;        // of the boundary; the thinnest parts are rims and tips, graded towards them
     const CGAL::Bbox_3 b = oracle.bbox();
     const double extent = (std::max)({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
     const double reach = criteria.size.is_constant() ? (std::min)(criteria.size.constant(), extent) : extent;
-    double vertices = 0, below_floor = 0, whole = 0, thinnest = reach;
-    typename Oracle::Point where{};
-    oracle.visit_spread_points(samples,
-                               [&](const typename Oracle::Point& p, const std::array<double, 3>& normal, double area) {
-                                 const double thickness = oracle.thickness(p, normal, reach);
-                                 whole += area;
-                                 if (thickness >= reach || oracle.is_at_acute_edge(p, thickness))
-                                   return; // wedges are graded towards it
-                                 vertices += per_square * area / (thickness * thickness);
-                                 if (thickness < size_floor) below_floor += area;
-                                 if (thickness < thinnest) thinnest = thickness, where = p;
-                               });
-    const bool is_flat = below_floor > much * whole;
+    std::vector<std::pair<double, Point>> thickness;
+    double area_of_each = 0;
+    oracle.visit_spread_points(samples, [&](const Point& p, const std::array<double, 3>& normal, double area) {
+      thickness.emplace_back(oracle.thickness(p, normal, reach), p);
+      area_of_each = area;
+    });
+    if (thickness.empty()) return;
+    std::sort(thickness.begin(), thickness.end());
+    const auto first = static_cast<std::size_t>(much * static_cast<double>(thickness.size()));
+    const auto& [thinnest, where] = thickness[first];
+    double vertices = 0;
+    for (std::size_t i = first; i < thickness.size(); ++i)
+      if (thickness[i].first < reach) vertices += per_square * area_of_each / (thickness[i].first * thickness[i].first);
+    const bool is_flat = thinnest < size_floor;
     if (!is_flat && vertices <= static_cast<double>(most_vertices)) return;
     std::ostringstream text;
     text << (is_flat ? "flat" : "too thin") << ": thickness " << thinnest << " at (" << where.x() << ", " << where.y()
