@@ -476,7 +476,7 @@ TEST_CASE("giving up creases that isn't enough leaves the mesh with all of them"
   Criteria criteria = criteria_of(0.2, 0.01);
   criteria.cell_demand = [](const weft::Cell_view_3<K>&) { return 2.; }; // nothing meets it
   Options options = refinement();
-  options.size_floor = 0.1;
+  options.size_floor = 0.03;
   const auto result = weft::mesh_surface_3(complex, criteria, options);
   CHECK(!result.report.ok());
   CHECK(result.report.creases_given_up == 0);
