@@ -28,7 +28,7 @@ public:
 
 private:
   weft::Label_image_3 image_;
-  weft::Labelled_oracle_3<K, weft::Label_image_3> oracle_ = weft::image_oracle_3<K>(image_);
+  weft::Image_oracle_3<K> oracle_ = weft::image_oracle_3<K>(image_);
 };
 
 } // namespace
