@@ -146,6 +146,14 @@ std::string what_is_missing(const Request& request, const weft::Mesh_report_3& r
     append_to_list(text, std::to_string(report.bad_vertices) + " vertices without a topological disk");
   if (report.bare_patches > 0) append_to_list(text, std::to_string(report.bare_patches) + " patches without a facet");
   if (request.bounds.manifold && !report.manifold) append_to_list(text, "the boundary isn't a manifold");
+  if (!report.domain.has_surface())
+    append_to_list(text, std::to_string(report.domain.missed()) + " points of the boundary are missed");
+  for (const weft::Subdomain_comparison_3& s : report.domain.subdomains) {
+    const std::string of_subdomain =
+        report.domain.subdomains.size() > 1 ? " of subdomain " + std::to_string(s.subdomain) : "";
+    if (!s.has_volume()) append_to_list(text, "the volume" + of_subdomain + " is wrong");
+    if (!s.has_topology()) append_to_list(text, "parts or handles" + of_subdomain + " are missing or too many");
+  }
   append_to_list(text, command_line::missing_dihedral(request.min_dihedral, smallest_dihedral));
   if (report.stop_reason != weft::Stop_reason::criteria_met)
     return std::string("stopped early, ") + name(report.stop_reason) + (text.empty() ? "" : ": ") + text;

@@ -5,6 +5,7 @@
 #ifndef WEFT_REPORT_H
 #define WEFT_REPORT_H
 
+#include <weft/Domain_comparison_3.h>
 #include <weft/internal/cold.h>
 #include <weft/internal/counted.h>
 #include <weft/visitor.h>
@@ -92,6 +93,7 @@ struct Mesh_report_3
   Unsatisfied_3 bad_edges, bad_facets, bad_cells;
   std::size_t bad_vertices = 0; ///< vertices without a topological disk of boundary facets or crease edges
   std::size_t bare_patches = 0; ///< patches without a boundary facet
+  Domain_comparison_3 domain;   ///< the mesh beside its domain: what is missing; made at the end
 
   std::size_t creases_given_up = 0; ///< that were found by angle, since criteria couldn't hold with them
 
@@ -120,8 +122,8 @@ struct Mesh_report_3
   {
     return bad_edges.elements + bad_facets.elements + bad_cells.elements + bad_vertices + bare_patches;
   }
-  /// Whether every requested criterion holds.
-  bool ok() const { return stop_reason == Stop_reason::criteria_met && bad() == 0; }
+  /// Whether every requested criterion holds, and the mesh is the whole domain, as far as the oracle knows that.
+  bool ok() const { return stop_reason == Stop_reason::criteria_met && bad() == 0 && domain.ok(); }
 };
 
 /// Several lines for a person.
@@ -156,6 +158,7 @@ WEFT_COLD inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3
   unsatisfied(r.bad_cells, "cells");
   if (r.bad_vertices) out << r.bad_vertices << " vertices without a topological disk\n";
   if (r.bare_patches) out << counted(r.bare_patches, "patch", "patches") << " without a facet\n";
+  out << r.domain;
   out << r.batches << " batches, " << r.candidates << " candidates, " << r.encroachments << " encroachments, "
       << r.segment_queries << " segment queries, " << r.skipped_queries << " skipped;";
   for (const auto& [stage, seconds] : r.stage_seconds) out << " " << stage << " " << seconds << " s";

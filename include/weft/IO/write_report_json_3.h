@@ -11,6 +11,7 @@
 #include <weft/spatial/local/Improve_options_3.h>
 #include <weft/spatial/mesh/quality_3.h>
 
+#include <cmath>
 #include <cstddef>
 #include <ostream>
 #include <string>
@@ -29,6 +30,35 @@ inline Json to_json(const Unsatisfied_3& u)
           {"topology", u.topology},
           {"disk", u.disk},
           {"demand", u.demand}};
+}
+
+inline Json to_json(const Domain_comparison_3& c)
+{
+  Json subdomains = Json::array();
+  for (const Subdomain_comparison_3& s : c.subdomains) {
+    Json row = {{"subdomain", s.subdomain}, {"volume", s.volume},           {"components", s.components},
+                {"euler", s.euler},         {"has_volume", s.has_volume()}, {"has_topology", s.has_topology()}};
+    if (!std::isnan(s.expected_volume)) {
+      row["expected_volume"] = s.expected_volume;
+      row["allowed_difference"] = s.allowed_difference;
+    }
+    if (s.expected_components >= 0) {
+      row["expected_components"] = s.expected_components;
+      row["expected_euler"] = s.expected_euler;
+    }
+    subdomains.push_back(row);
+  }
+  return {{"ok", c.ok()},
+          {"has_surface", c.has_surface()},
+          {"has_volumes", c.has_volumes()},
+          {"has_topology", c.has_topology()},
+          {"samples", c.samples},
+          {"missed_patch_samples", c.missed_patch_samples},
+          {"missed_crease_samples", c.missed_crease_samples},
+          {"missing_corners", c.missing_corners},
+          {"tolerance", c.tolerance},
+          {"largest_distance", c.largest_distance},
+          {"subdomains", subdomains}};
 }
 
 inline Json to_json(const Mesh_report_3& r)
@@ -66,6 +96,7 @@ inline Json to_json(const Mesh_report_3& r)
           {"bad_cells", to_json(r.bad_cells)},
           {"bad_vertices", r.bad_vertices},
           {"bare_patches", r.bare_patches},
+          {"domain", to_json(r.domain)},
           {"batches", r.batches},
           {"candidates", r.candidates},
           {"encroachments", r.encroachments},

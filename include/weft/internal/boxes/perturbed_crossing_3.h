@@ -154,6 +154,7 @@ public:
   bool is_degenerate() const { return !of_p_ || !of_q_ || !edges_[0].sign || !edges_[1].sign || !edges_[2].sign; }
 
   int patch() const { return t_.patch; }
+  int triangle() const { return static_cast<int>(t_.index); }
   int change() const { return t_.change; }
 
   /// Whether the moved segment crosses the triangle.

@@ -64,6 +64,18 @@ private:
   std::function<double(const Point&)> field_;
 };
 
+namespace internal {
+
+/// The smaller of two bounds at a point; 0 if there is neither.
+template <class K>
+double least_bound(const Length_field_3<K>& a, const Length_field_3<K>* b, const typename K::Point_3& p)
+{
+  const double first = a ? a(p) : 0, second = b && *b ? (*b)(p) : 0;
+  return first == 0 || second == 0 ? first + second : first < second ? first : second;
+}
+
+} // namespace internal
+
 /// What cells of one subdomain have to satisfy in addition to what holds everywhere; 0: nothing more.
 template <class K>
 struct Subdomain_criteria_3
@@ -121,6 +133,13 @@ struct Criteria_3
   /// Any other demand: how bad an element is, above 1 if it has to be refined; called by one thread only.
   std::function<double(const Facet_view_3<K>&)> facet_demand;
   std::function<double(const Cell_view_3<K>&)> cell_demand;
+
+  /// The approximation asked for on one patch alone; null if none is.
+  const Length_field_3<K>* own_approximation(int patch) const
+  {
+    const auto own = patches.find(patch);
+    return own == patches.end() ? nullptr : &own->second.approximation;
+  }
 
   /// \throws Option_error naming the first criterion out of range.
   void check() const

@@ -11,6 +11,7 @@
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/Deviation_3.h>
+#include <weft/spatial/criteria/facet_turn_3.h>
 #include <weft/spatial/mesh/circumcenter_3.h>
 #include <weft/spatial/restricted/topological_disk_3.h>
 
@@ -180,13 +181,14 @@ private:
     double badness = 0;           ///< ratio of its worst measure to the bound
     double depth = 0, height = 0; ///< squared distances between it and the surface, see Deviation_3
     int astray = 0;               ///< of a boundary facet, vertices that don't lie on the boundary
+    double turn = 0; ///< of a boundary facet that is turned away from the surface, see facet_turn_3.h: 1 - cosine
 
-    bool is_bad() const { return badness > 0 || depth > 0 || height > 0 || astray > 0; }
+    bool is_bad() const { return badness > 0 || depth > 0 || height > 0 || astray > 0 || turn > 0; }
     bool exceeds(const Grade& other) const
     {
       constexpr double slack = 1 + 1e-9;
       return badness > slack * other.badness || depth > slack * other.depth || height > slack * other.height ||
-             astray > other.astray;
+             astray > other.astray || turn > slack * other.turn;
     }
   };
 
@@ -241,13 +243,13 @@ private:
 
   // ---- grades
 
-  Grade grade(Cell_handle c) const { return {ratio(measure_.cell(c)), 0, 0, 0}; }
+  Grade grade(Cell_handle c) const { return {ratio(measure_.cell(c)), 0, 0, 0, 0}; }
   Grade unlabelled_grade(Cell_handle c) const
   {
     return {ratio(measure_.cell(
                 {&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()},
                 c->circumcenter())),
-            0, 0, 0};
+            0, 0, 0, 0};
   }
 
   Grade grade(const Facet& f) const
@@ -256,12 +258,13 @@ private:
     const Grade distance = grade_by_distance(f);
     grade.depth = distance.depth;
     grade.height = distance.height;
+    grade.turn = distance.turn;
     return grade;
   }
 
   Grade grade_by_criteria(const Facet& f) const
   {
-    Grade grade{ratio(measure_.facet(f)), 0, 0, 0};
+    Grade grade{ratio(measure_.facet(f)), 0, 0, 0, 0};
     for (int i = 1; i < 4; ++i) grade.astray += f.cell->vertex((f.index + i) & 3)->location().dimension > 2;
     return grade;
   }
@@ -269,14 +272,15 @@ private:
   Grade grade_by_distance(const Facet& f) const
   {
     const Squared_deviation_3 d = deviation_.beyond(bound_at(f.steiner), f);
-    return {0, d.depth, d.height, 0};
+    const double cosine = cosine_to_surface(mesh_, f);
+    return {0, d.depth, d.height, 0, cosine < least_cosine_to_surface ? 1 - cosine : 0};
   }
 
   Grade grade(const Crease_edge& e) const
   {
     const double d = deviation_.of(e), allowed = allowed_ ? allowed_(e.steiner) : 0;
     const double farthest = (std::max)(farthest_of_crease_, allowed * allowed);
-    return {ratio(measure_.crease_edge(e)), d > farthest ? d : 0, 0, 0};
+    return {ratio(measure_.crease_edge(e)), d > farthest ? d : 0, 0, 0, 0};
   }
 
   Squared_deviation_3 bound_at(const typename Restricted::Point& p) const
@@ -289,7 +293,7 @@ private:
 
   static double ratio(const Badness_3& badness) { return badness.is_bad() ? badness.ratio : 0; }
 
-  Grade grade(Vertex_handle v) const { return {has_topological_disk(mesh_, v) ? 0. : 1., 0, 0, 0}; }
+  Grade grade(Vertex_handle v) const { return {has_topological_disk(mesh_, v) ? 0. : 1., 0, 0, 0, 0}; }
 
   bool has_bad_crease_edge(Cell_handle c) const
   {

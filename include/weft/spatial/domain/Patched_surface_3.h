@@ -60,7 +60,7 @@ public:
       if (pair.is_degenerate())
         pair.contacts([&](const Contact& contact) { contacts.push_back(contact); });
       else
-        hits.push_back({pair.point(), pair.patch()});
+        hits.push_back({pair.point(), pair.patch(), pair.triangle()});
       return false;
     });
     if (!contacts.empty() && add_contacts(p, q, contacts, hits)) change = subdomain(p) ^ subdomain(q);
@@ -94,7 +94,7 @@ private:
 
   static Surface_hit_3<K> hit(const typename Triangle_hierarchy_3<K>::Nearest& nearest)
   {
-    return {nearest.point, nearest.patch};
+    return {nearest.point, nearest.patch, static_cast<int>(nearest.triangle)};
   }
 
   // Appends each touched vertex, edge or triangle once; returns whether an end of the segment is touched.
@@ -109,7 +109,7 @@ private:
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Contact& c = contacts[i];
       at_end = at_end || c.point == p || c.point == q;
-      if (i == 0 || key(c) != key(contacts[i - 1])) hits.push_back({c.point, c.patch});
+      if (i == 0 || key(c) != key(contacts[i - 1])) hits.push_back({c.point, c.patch, static_cast<int>(c.triangle)});
     }
     return at_end;
   }

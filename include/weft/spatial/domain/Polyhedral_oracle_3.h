@@ -30,10 +30,12 @@
 #include <CGAL/Bbox_3.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -85,6 +87,22 @@ public:
 
   /// Which creases and patches meet. Linear in the size of the complex, but for a factor log(number of sharp edges).
   Feature_incidence_3 incidence() const { return Feature_incidence_3(complex_); }
+
+  /// Unit normal of a triangle that a query has hit, pointing out of a subdomain; zero if that doesn't lie beside it,
+  /// or the triangle has no area.
+  std::array<double, 3> normal(int triangle, int subdomain) const
+  {
+    const auto t = static_cast<std::size_t>(triangle);
+    const auto [behind, before] = sides(t);
+    if (behind == before || (behind != subdomain && before != subdomain)) return {};
+    const auto& v = complex_.triangles[t];
+    const auto at = [&](std::size_t i) { return internal::xyz(complex_.points[v[i]]); };
+    auto n = internal::cross_product(internal::minus(at(1), at(0)), internal::minus(at(2), at(0)));
+    const double length = internal::norm(n);
+    if (!(length > 0)) return {};
+    for (double& x : n) x /= behind == subdomain ? length : -length;
+    return n;
+  }
 
   /// Bounding box of the boundary.
   CGAL::Bbox_3 bbox() const { return surface_.bbox(); }
@@ -205,37 +223,53 @@ public:
     std::vector<internal::Boundary_facet_3> boundaries;
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
       const auto& v = complex_.triangles[t];
-      const auto [behind, before] =
-          complex_.sides.empty() ? std::make_pair(1, 0) : complex_.sides[static_cast<std::size_t>(complex_.patches[t])];
+      const auto [behind, before] = sides(t);
       if (behind != 0) boundaries.push_back({behind, v});
       if (before != 0) boundaries.push_back({before, {v[0], v[2], v[1]}});
     }
     return internal::shape_of_boundaries(complex_.points, boundaries);
   }
 
-  /// Calls `visit(point, patch, unit normal)` for the corners of every triangle and points between them no farther
-  /// apart than that, up to a million a triangle.
+  /// Calls `visit(point, patch, unit normal)` for points of the boundary no farther apart than about that: the corners
+  /// of triangles and points between them, up to a million a triangle; of triangles that are small beside the spacing
+  /// one in each cube of that grid that looks the same way. O(n + samples).
   template <class Visit>
   void visit_samples(double spacing, const Visit& visit) const
   {
     using internal::Xyz_3;
     std::vector<char> is_visited(complex_.points.size(), false);
+    std::set<std::array<std::int64_t, 5>> seen;
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
       const auto& v = complex_.triangles[t];
+      const int patch = complex_.patches[t];
       const std::array<Xyz_3, 3> corners{{internal::xyz(complex_.points[v[0]]), internal::xyz(complex_.points[v[1]]),
                                           internal::xyz(complex_.points[v[2]])}};
-      Xyz_3 normal =
-          internal::cross_product(internal::minus(corners[1], corners[0]), internal::minus(corners[2], corners[0]));
+      const std::array<Xyz_3, 3> sides{{internal::minus(corners[1], corners[0]),
+                                        internal::minus(corners[2], corners[1]),
+                                        internal::minus(corners[0], corners[2])}};
+      Xyz_3 normal = internal::cross_product(sides[0], sides[1]);
       const double length = internal::norm(normal);
       if (!(length > 0)) continue;
       for (double& n : normal) n /= length;
+      const auto is_short = [spacing](const Xyz_3& side) { return internal::norm(side) < spacing / 2; };
+      if (std::all_of(sides.begin(), sides.end(), is_short)) {
+        Xyz_3 p{};
+        std::array<std::int64_t, 5> cube{{0, 0, 0, patch, 0}};
+        for (std::size_t k = 0; k < 3; ++k) {
+          p[k] = (corners[0][k] + corners[1][k] + corners[2][k]) / 3;
+          cube[k] = static_cast<std::int64_t>(std::floor(2 * p[k] / spacing));
+          cube[4] = 2 * cube[4] + (normal[k] < 0);
+        }
+        if (seen.insert(cube).second) visit(Point(p[0], p[1], p[2]), patch, normal);
+        continue;
+      }
       for (const std::size_t vertex : v) {
         if (is_visited[vertex]) continue;
         is_visited[vertex] = true;
-        visit(complex_.points[vertex], complex_.patches[t], Xyz_3()); // edges and tips have no normal
+        visit(complex_.points[vertex], patch, Xyz_3()); // edges and tips have no normal
       }
-      internal::for_each_grid_point(
-          corners, spacing, [&](const Xyz_3& p) { visit(Point(p[0], p[1], p[2]), complex_.patches[t], normal); });
+      internal::for_each_grid_point(corners, spacing,
+                                    [&](const Xyz_3& p) { visit(Point(p[0], p[1], p[2]), patch, normal); });
     }
   }
 
@@ -266,6 +300,13 @@ private:
   static constexpr double acute_angle = 60; // degrees; from there on refinement ends by itself
 
   using Triangle = internal::Surface_triangle_3<K>;
+
+  /// The subdomains behind and before a triangle.
+  std::pair<int, int> sides(std::size_t t) const
+  {
+    return complex_.sides.empty() ? std::make_pair(1, 0)
+                                  : complex_.sides[static_cast<std::size_t>(complex_.patches[t])];
+  }
 
   void build_surface()
   {

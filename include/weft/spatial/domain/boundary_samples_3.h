@@ -25,28 +25,33 @@ struct Has_boundary_samples_3<Oracle, std::void_t<decltype(std::declval<const Or
     : std::true_type
 {};
 
-/// Distance that facets may have from points of the boundary: twice that for facets from the boundary, which facets
-/// keep at their Steiner points only. Infinite where nothing is asked for.
+/// Distance that facets and crease edges may have from points of the boundary: two and a half times the approximation
+/// bound, as far as refinement lets points of sharp edges that aren't creases be from facets. Infinite where nothing is
+/// asked for.
 inline double boundary_tolerance(double approximation)
 {
-  return approximation > 0 ? 2 * approximation : std::numeric_limits<double>::infinity();
+  return approximation > 0 ? 2.5 * approximation : std::numeric_limits<double>::infinity();
 }
 
 /// Calls `visit(point, patch, tolerance)` for points of the boundary of a domain that have no facet of their patch
 /// within their tolerance. Points are the oracle's own samples, no farther apart than `spacing`, where it has them,
-/// else seeds of its patches. Where the boundary turns back within reach of the tolerance (a rod, a rib, a slot), half
+/// else seeds of its patches. Where the boundary turns back within reach of the tolerance (a rod, a rib, a slot), most
 /// of that distance is the tolerance, so that one side can't stand for the other; but not less than a quarter of the
-/// approximation bound. \param distance a Boundary_distance_3 of facets. \returns how many points were looked at.
-template <class Oracle, class Distance, class Visit>
-std::size_t visit_missed_samples(const Oracle& oracle, const Distance& distance, double spacing, double approximation,
-                                 double part_of_thickness, const Visit& visit)
+/// approximation bound.
+/// \param distance a Boundary_distance_3 of facets.
+/// \param approximation called with a point and its patch, returns the approximation bound there, 0 if there is none.
+/// \returns how many points were looked at.
+template <class Oracle, class Distance, class Approximation, class Visit>
+std::size_t visit_missed_samples(const Oracle& oracle, const Distance& distance, double spacing,
+                                 const Approximation& approximation, const Visit& visit)
 {
   using Point = typename Oracle::Point;
-  const double most = boundary_tolerance(approximation), least = 0.25 * approximation;
+  constexpr double part_of_thickness = 0.8; // less than one: one side can't stand for the other
   std::size_t samples = 0;
   if constexpr (Has_boundary_samples_3<Oracle>::value) {
     oracle.visit_samples(spacing, [&](const Point& p, int patch, const std::array<double, 3>& normal) {
       ++samples;
+      const double bound = approximation(p, patch), most = boundary_tolerance(bound), least = 0.25 * bound;
       if (!std::isfinite(most)) {
         if (!distance.has_facets(patch)) visit(p, patch, most);
         return;
@@ -62,6 +67,7 @@ std::size_t visit_missed_samples(const Oracle& oracle, const Distance& distance,
       if (!oracle.is_expected(p)) continue;
       for (const auto& seed : oracle.patch_seeds(p, seeds)) {
         ++samples;
+        const double most = boundary_tolerance(approximation(seed.point, p));
         const bool is_near =
             std::isfinite(most) ? distance.has_facet_within(seed.point, p, most) : distance.has_facets(p);
         if (!is_near) visit(seed.point, p, most);

@@ -7,10 +7,10 @@
 #ifndef WEFT_SPATIAL_DOMAIN_CHECK_DOMAIN_3_H
 #define WEFT_SPATIAL_DOMAIN_CHECK_DOMAIN_3_H
 
+#include <weft/Domain_comparison_3.h>
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/spatial/domain/Boundary_distance_3.h>
 #include <weft/spatial/domain/boundary_samples_3.h>
-#include <weft/spatial/domain/Domain_comparison_3.h>
 #include <weft/spatial/domain/Domain_shape_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
@@ -61,18 +61,31 @@ void visit_crease_samples(const Oracle& oracle, double spacing, const Visit& vis
 /// normal, reach)` is the distance to where the boundary is met again along the normal, at most `reach`.
 ///
 /// O((n + samples) log n) time for n elements of the mesh.
-/// \param approximation distance of facets from the boundary that was asked for, in the input's units. 0 if none was:
-///   then patches and creases need only have some facet or edge, and volumes may differ.
+/// \param approximation distance of facets from the boundary that was asked for, in the input's units: a number, or
+///   called with a point and a patch, -1 on creases. 0 if none was: then patches and creases need only have some facet
+///   or edge, and volumes may differ.
+/// \param spacing of samples, in the input's units; 0: eight times the bound, where it is a number, at least a
+///   thousandth of the bounding box's diagonal.
 /// \param missed if not null, gets the samples that are missed, with their patches.
 /// \pre Patches and creases of the mesh have the numbers that the oracle gives them.
-template <class K, class Oracle>
-Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle, double approximation,
+template <class K, class Oracle, class Approximation>
+Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle,
+                                   const Approximation& approximation, double spacing = 0,
                                    std::vector<std::pair<typename K::Point_3, int>>* missed = nullptr)
 {
   using Point = typename K::Point_3;
+  constexpr bool is_number = std::is_convertible_v<const Approximation&, double>;
+  double largest_bound = 0; // of the places looked at; infinite if there is none at some
+  const auto bound_at = [&](const Point& p, int patch) {
+    double bound = 0;
+    if constexpr (is_number)
+      bound = static_cast<double>(approximation), static_cast<void>(p), static_cast<void>(patch);
+    else
+      bound = approximation(p, patch);
+    largest_bound = std::max(largest_bound, bound > 0 ? bound : std::numeric_limits<double>::infinity());
+    return bound;
+  };
   Domain_comparison_3 result;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  result.tolerance = internal::boundary_tolerance(approximation);
 
   internal::Boundary_distance_3<K> distance(static_cast<std::size_t>(oracle.number_of_patches()),
                                             oracle.number_of_creases());
@@ -85,26 +98,31 @@ Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Orac
   distance.build();
   const auto box = oracle.bbox();
   const double extent = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
-  const double spacing = std::max(4 * approximation, 1e-3 * extent);
-  constexpr double part_of_thickness = 0.8; // less than one: one side can't stand for the other
-  result.samples = internal::visit_missed_samples(
-      oracle, distance, spacing, approximation, part_of_thickness, [&](const Point& p, int patch, double) {
-        ++result.missed_patch_samples;
-        result.largest_distance = std::max(result.largest_distance, distance.distance_to_facets(p, patch));
+  if (!(spacing > 0)) {
+    spacing = 1e-3 * extent;
+    if constexpr (is_number) spacing = std::max(spacing, 8 * static_cast<double>(approximation));
+  }
+  constexpr std::size_t most_measured = 1000; // how far what is missed is off; measuring that is dear
+  result.samples =
+      internal::visit_missed_samples(oracle, distance, spacing, bound_at, [&](const Point& p, int patch, double) {
+        if (++result.missed_patch_samples <= most_measured)
+          result.largest_distance = std::max(result.largest_distance, distance.distance_to_facets(p, patch));
         if (missed) missed->push_back({p, patch});
       });
   internal::visit_crease_samples(oracle, spacing, [&](const Point& p, int crease) {
     ++result.samples;
     const double d = distance.distance_to_edges(p, crease);
-    if (std::isfinite(d) && d <= result.tolerance) return; // infinite: the crease has no edge at all
+    if (std::isfinite(d) && d <= internal::boundary_tolerance(bound_at(p, -1))) return; // infinite: it has no edge
     ++result.missed_crease_samples;
     result.largest_distance = std::max(result.largest_distance, d);
   });
+  result.tolerance = internal::boundary_tolerance(std::isfinite(largest_bound) ? largest_bound : 0);
   std::set<Point> corners;
   for (const std::size_t v : mesh.corners) corners.insert(mesh.points[v]);
   for (std::size_t i = 0; i < oracle.number_of_corners(); ++i)
     result.missing_corners += corners.count(oracle.corner(i)) == 0;
 
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Domain_shape_3 shape = shape_of_mesh(mesh);
   std::set<int> subdomains;
   for (const auto& own : shape) subdomains.insert(own.first);
@@ -122,7 +140,7 @@ Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Orac
       row.expected_volume = asked.volume;
       // Rounding of the sums is allowed for, too.
       row.allowed_difference =
-          approximation > 0 ? approximation * asked.area + 1e-9 * std::abs(asked.volume) : infinity;
+          largest_bound > 0 ? largest_bound * asked.area + 1e-9 * std::abs(asked.volume) : infinity;
       row.expected_components = asked.components, row.expected_euler = asked.euler;
     }
     result.subdomains.push_back(row);

@@ -13,6 +13,7 @@ struct Surface_hit_3
 {
   typename K::Point_3 point;
   int patch;
+  int triangle = -1; ///< number that the oracle knows the normal there by; -1 if it has none
 };
 
 /// A point of a crease and the number of that crease.

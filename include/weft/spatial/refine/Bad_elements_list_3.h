@@ -8,6 +8,7 @@
 
 #include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Badness_measure_3.h>
+#include <weft/spatial/criteria/facet_turn_3.h>
 #include <weft/spatial/refine/Steiner_chooser_3.h>
 
 #include <CGAL/centroid.h>
@@ -140,6 +141,9 @@ public:
     return facets_;
   }
 
+  /// Whether a facet has been found that is turned away from the surface.
+  bool has_found_turned() const { return has_found_turned_; }
+
   /// The bad cells, none of them gone, in no order.
   std::vector<Bad_cell>& cells()
   {
@@ -169,8 +173,13 @@ private:
   {
     if constexpr (!Restricted::Oracle::labels_first) {
       for (const Facet_id_3& id : unseen_)
-        if (const Restricted_facet* f = find_facet(mesh_, id); f && is_far(*f))
-          facets_.push_back({id, Measure::just_bad, true, must_be_refined(bad_approximation, f->crossings > 1), false});
+        if (const Restricted_facet* f = find_facet(mesh_, id)) {
+          const bool is_turned = measure_.factor() <= 1 && cosine_to_surface(mesh_, *f) < least_cosine_to_surface;
+          has_found_turned_ = has_found_turned_ || is_turned;
+          if (is_turned || is_far(*f))
+            facets_.push_back({id, Measure::just_bad, !is_turned,
+                               !is_turned && must_be_refined(bad_approximation, f->crossings > 1), false});
+        }
     }
     unseen_.clear();
   }
@@ -194,6 +203,7 @@ private:
   std::vector<Bad_facet> facets_;
   std::vector<Facet_id_3> unseen_; ///< facets that `look_again()` has yet to see
   std::vector<Bad_edge> edges_;
+  bool has_found_turned_ = false;
 };
 
 } // namespace weft::internal

@@ -101,6 +101,9 @@ public:
     return mesh_.version();
   }
 
+  /// Whether a facet has been found that is turned away from the surface, see facet_turn_3.h.
+  bool has_found_turned() const { return bad_.has_found_turned(); }
+
   std::size_t candidates() const { return batch_.candidates(); }
   std::size_t encroachments() const { return batch_.encroachments(); }
 

@@ -6,10 +6,15 @@
 #ifndef WEFT_SPATIAL_REFINE_BOUNDARY_SEEDER_3_H
 #define WEFT_SPATIAL_REFINE_BOUNDARY_SEEDER_3_H
 
+#include <weft/internal/boxes/Point_grid_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/domain/Boundary_distance_3.h>
+#include <weft/spatial/domain/boundary_samples_3.h>
 #include <weft/spatial/refine/Crease_divider_3.h>
 
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -68,10 +73,44 @@ public:
     return inserted;
   }
 
+  /// Inserts points of the boundary that no facet of their patch is near to; returns how many there were. Refinement
+  /// sees a surface only where facets are, and goes on from there ring by ring: this takes it to where none are.
+  std::size_t seed_missed()
+  {
+    const auto& oracle = mesh_.oracle();
+    using Oracle = std::decay_t<decltype(oracle)>;
+    if constexpr (Has_boundary_samples_3<Oracle>::value) {
+      if (!criteria_.approximation || !criteria_.approximation.is_constant()) return 0;
+      using Point = typename Kernel::Point_3;
+      const double approximation = criteria_.approximation.constant();
+      Boundary_distance_3<Kernel> distance(static_cast<std::size_t>(oracle.number_of_patches()), 0);
+      for (const auto& f : mesh_.facets()) {
+        if (f.cell == typename Restricted::Cell_handle()) continue;
+        const auto at = [&f](int i) { return f.cell->vertex((f.index + i) % 4)->point(); };
+        distance.add_facet(at(1), at(2), at(3), f.patch);
+      }
+      distance.build();
+      std::vector<std::pair<Point, Vertex_location_3>> missed;
+      Point_grid_3 chosen(0.25 * approximation);
+      const auto bound = [approximation](const Point&, int) { return approximation; };
+      visit_missed_samples(oracle, distance, spacing_of_missed * approximation, bound,
+                           [&](const Point& p, int patch, double tolerance) {
+                             if (mesh_.vertices().size() + missed.size() >= most_vertices_) return;
+                             if (chosen.add(xyz(p), tolerance)) missed.push_back({p, {2, patch}});
+                           });
+      const std::size_t before = mesh_.vertices().size();
+      for (const auto& [p, location] : missed) mesh_.insert(p, location); // one by one: some may be vertices
+      return mesh_.vertices().size() - before;
+    } else {
+      return 0;
+    }
+  }
+
 private:
   bool has_room() const { return mesh_.vertices().size() < most_vertices_; }
 
-  static constexpr std::size_t most_seeds = 40; ///< of a patch
+  static constexpr std::size_t most_seeds = 40;  ///< of a patch
+  static constexpr double spacing_of_missed = 4; ///< in approximation bounds: of the points looked at
 
   Restricted& mesh_;
   const Criteria_3<Kernel>& criteria_;

@@ -38,6 +38,7 @@ struct Restricted_facet_3
   int patch = 0;                            ///< on which the Steiner point lies
   int crossings = 0;                        ///< of its Voronoi edge with the boundary
   bool several = false;                     ///< whether they lie on different patches
+  int triangle = -1;                        ///< on which the Steiner point lies, see Surface_hit_3
   typename Triangulation::Point steiner;    ///< the farthest of them from the vertices of the facet
   double squared_radius = 0;                ///< of the surface Delaunay ball around it
   int version = 0;                          ///< of the mesh before it was made, see Restricted_delaunay_3::version()
@@ -186,6 +187,7 @@ private:
       f.squared_radius = r;
       f.steiner = hit.point;
       f.patch = hit.patch;
+      f.triangle = hit.triangle;
     }
   }
 

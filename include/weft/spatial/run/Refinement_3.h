@@ -79,12 +79,18 @@ public:
       ++report_.batches;
       go_on = run_.visit(mesh_.vertices().size(), batch.bad);
       bad_left_ = batch.bad;
+      if (factor == 1 && !has_seeded_missed_ && refiner.has_found_turned()) {
+        has_seeded_missed_ = true;
+        if (seeder_.seed_missed() > 0) {
+          add_queries(refiner);
+          return refine(factor, with_cells, most_batches - batches - 1, luck);
+        }
+      }
       if (batch.inserted > 0) continue;
       if (factor == 1) settled_ = refiner.settle();
       break;
     }
-    report_.candidates += refiner.candidates();
-    report_.encroachments += refiner.encroachments();
+    add_queries(refiner);
     return go_on;
   }
 
@@ -126,6 +132,12 @@ public:
   }
 
 private:
+  void add_queries(const Batch_refiner_3<Restricted>& refiner)
+  {
+    report_.candidates += refiner.candidates();
+    report_.encroachments += refiner.encroachments();
+  }
+
   /// Whether the budget allows another batch. Of several limits time is named first, then vertices.
   bool may_refine()
   {
@@ -153,6 +165,7 @@ private:
   Oracle_counts_3 earlier_;  ///< of triangulations that were built again
   int settled_ = 0;          ///< see `Batch_refiner_3::settle()`
   std::size_t bad_left_ = 0; ///< elements that refinement looked at last and left
+  bool has_seeded_missed_ = false;
 };
 
 } // namespace weft::internal

@@ -69,7 +69,7 @@ public:
     meet_criteria();
     start_again_where_bad();
     optimise();
-    return report();
+    return final_report();
   }
 
   /// The first half of `run()`: refines until the criteria hold or nothing more can be done.
@@ -104,16 +104,11 @@ public:
     if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
   }
 
-  /// The report so far.
-  Mesh_report_3 report()
-  {
-    run_.end_stage();
-    Mesh_report_3 result = report_;
-    run_.report(result);
-    fill_report(mesh_, criteria_, refinement_.size_floor(), result);
-    refinement_.add_earlier_queries(result);
-    return result;
-  }
+  /// The report so far, but for the comparison with the domain.
+  Mesh_report_3 report() { return report(false); }
+
+  /// The report at the end.
+  Mesh_report_3 final_report() { return report(true); }
 
   /// The mesh as it is, also while a visitor is called.
   const Restricted& mesh() const { return mesh_; }
@@ -121,6 +116,16 @@ public:
   Restricted take_mesh() { return std::move(mesh_); }
 
 private:
+  Mesh_report_3 report(bool with_domain)
+  {
+    run_.end_stage();
+    Mesh_report_3 result = report_;
+    run_.report(result);
+    fill_report(mesh_, criteria_, refinement_.size_floor(), with_domain, result);
+    refinement_.add_earlier_queries(result);
+    return result;
+  }
+
   void insert_lattice()
   {
     const double spacing = lattice_spacing * criteria_.size.constant();

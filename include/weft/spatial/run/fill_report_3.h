@@ -6,7 +6,9 @@
 #define WEFT_SPATIAL_RUN_FILL_REPORT_3_H
 
 #include <weft/report.h>
+#include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/visit_bad_elements_3.h>
+#include <weft/spatial/domain/check_domain_3.h>
 #include <weft/spatial/mesh/check_manifold_3.h>
 #include <weft/spatial/mesh/quality_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
@@ -59,9 +61,22 @@ std::size_t count_bare_patches(const Restricted& mesh)
   return static_cast<std::size_t>(std::count(is_bare.begin(), is_bare.end(), true));
 }
 
-/// Counts, worst elements and criteria of a mesh into `report`. Linear.
+/// The mesh beside its domain, by the approximation bounds that were asked for.
+template <class Kernel, class Oracle>
+Domain_comparison_3 compare_with_domain(const Tetrahedral_mesh_3<Kernel>& mesh, const Oracle& oracle,
+                                        const Criteria_3<Kernel>& criteria)
+{
+  const auto& everywhere = criteria.approximation;
+  if (everywhere.is_constant() && criteria.patches.empty()) return check_domain_3(mesh, oracle, everywhere.constant());
+  return check_domain_3(mesh, oracle, [&](const typename Kernel::Point_3& p, int patch) {
+    return least_bound(everywhere, criteria.own_approximation(patch), p);
+  });
+}
+
+/// Counts, worst elements and criteria of a mesh into `report`. Linear, but for the domain.
+/// \param with_domain whether the mesh is compared with its domain, too.
 template <class Restricted, class Kernel>
-void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteria, double size_floor,
+void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteria, double size_floor, bool with_domain,
                  Mesh_report_3& report)
 {
   const auto mesh = tetrahedral_mesh(restricted);
@@ -84,7 +99,9 @@ void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteri
   // Where every vertex has its disk of facets, all of them between inside and outside, the boundary is a manifold.
   const bool clean = report.bad_vertices == 0 && report.bad_facets.disk == 0 && !mesh.cells.empty();
   report.manifold = clean || (!mesh.cells.empty() && check_manifold_3(mesh).ok());
-  if (report.stop_reason == Stop_reason::criteria_met && report.bad() > 0) report.stop_reason = Stop_reason::exhausted;
+  if (with_domain) report.domain = compare_with_domain(mesh, restricted.oracle(), criteria);
+  if (report.stop_reason == Stop_reason::criteria_met && (report.bad() > 0 || !report.domain.ok()))
+    report.stop_reason = Stop_reason::exhausted;
   report.segment_queries = restricted.counts().segments;
   report.location_queries = restricted.counts().locations;
   report.skipped_queries = restricted.counts().skipped;

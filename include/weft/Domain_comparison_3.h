@@ -2,8 +2,8 @@
 //
 // How a mesh and its domain differ: what `check_domain_3()` finds and reports of meshing hold.
 
-#ifndef WEFT_SPATIAL_DOMAIN_DOMAIN_COMPARISON_3_H
-#define WEFT_SPATIAL_DOMAIN_DOMAIN_COMPARISON_3_H
+#ifndef WEFT_DOMAIN_COMPARISON_3_H
+#define WEFT_DOMAIN_COMPARISON_3_H
 
 #include <cmath>
 #include <cstddef>
@@ -44,10 +44,13 @@ struct Domain_comparison_3
       0; ///< of them, on patches and farther than the tolerance from facets of their patch
   std::size_t missed_crease_samples = 0; ///< of them, on creases and farther than it from edges of their crease
   std::size_t missing_corners = 0;       ///< feature vertices that are no vertices of the mesh
-  double tolerance = 0;                  ///< of those distances, in the input's units
-  double largest_distance = 0;           ///< of a sample
+  double tolerance = 0;                  ///< of those distances, in the input's units: the largest
+  double largest_distance = 0;           ///< of a missed sample; of the first thousand of patches
 
-  bool has_surface() const { return missed_patch_samples == 0 && missed_crease_samples == 0 && missing_corners == 0; }
+  /// Samples and feature vertices that the mesh lacks.
+  std::size_t missed() const { return missed_patch_samples + missed_crease_samples + missing_corners; }
+
+  bool has_surface() const { return missed() == 0; }
   bool has_volumes() const
   {
     for (const auto& s : subdomains)
@@ -88,4 +91,4 @@ inline std::ostream& operator<<(std::ostream& out, const Domain_comparison_3& c)
 
 } // namespace weft
 
-#endif // WEFT_SPATIAL_DOMAIN_DOMAIN_COMPARISON_3_H
+#endif // WEFT_DOMAIN_COMPARISON_3_H
