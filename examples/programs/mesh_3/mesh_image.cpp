@@ -15,6 +15,8 @@
 #include <weft/spatial/restricted/extract_mesh_3.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <sstream>
 #include <utility>
 
@@ -43,7 +45,7 @@ public:
   double least_edge() const override
   {
     const auto& s = oracle_.image().spacing();
-    return 0.3 * *std::min_element(s.begin(), s.end());
+    return 0.3 * std::cbrt(s[0] * s[1] * s[2]);
   }
   std::vector<std::string> changes() const override { return notes_; }
 

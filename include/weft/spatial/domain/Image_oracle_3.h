@@ -12,6 +12,7 @@
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/spatial/domain/Domain_by_labels_3.h>
 #include <weft/spatial/domain/Image_border_3.h>
+#include <weft/spatial/domain/interface_seeds_3.h>
 #include <weft/spatial/domain/shape_of_image_3.h>
 #include <weft/spatial/domain/Voxel_components_3.h>
 #include <weft/spatial/domain/Voxel_image_3.h>
@@ -110,12 +111,25 @@ public:
     return Base::project_on_patch(p, patch);
   }
 
+  /// n well-spread points on each part of a patch; all that there are where these are few, since small components come
+  /// into the mesh only as a whole.
+  std::vector<Surface_hit_3<K>> patch_seeds(int patch, std::size_t n) const
+  {
+    std::vector<Surface_hit_3<K>> hits;
+    if (!Base::is_expected(patch)) return hits;
+    for (const auto& part : Base::seeds()[static_cast<std::size_t>(patch)]) {
+      const std::size_t wanted = part.size() <= few_seeds ? part.size() : n;
+      for (const auto& hit : internal::spread_over_parts<K>({part}, patch, wanted)) hits.push_back(hit);
+    }
+    return hits;
+  }
+
   // ---- For the comparison of mesh and domain
 
   /// Volumes of the interpolated subdomains; see `shape_of_image()`. O(voxels).
   Domain_shape_3 shape() const { return shape_of_image(*image_, *components_); }
 
-  /// Calls `visit(point, patch, unit normal)` for points where labels change between neighbours, and for centers of
+  /// Calls `visit(point, patch, unit normal)` for a point of each interface between eight voxels, and for centers of
   /// voxels' faces on the border. Where the voxels are closer than the spacing, for one of those within a spacing with
   /// the same patch, component and side.
   template <class Visit>
@@ -127,16 +141,26 @@ public:
           (std::max)(1., (std::min)(1e6, std::floor(spacing / (1.8 * image_->spacing()[k])))));
     const bool all = block == Voxel{{1, 1, 1}};
     std::set<std::tuple<Voxel, int, std::size_t, int>> seen;
+    const auto is_wanted = [&](const Voxel& v, int patch, std::size_t a, const std::array<double, 3>& normal) {
+      const int octant = (normal[0] < 0) + 2 * (normal[1] < 0) + 4 * (normal[2] < 0);
+      return all || seen.emplace(Voxel{{v[0] / block[0], v[1] / block[1], v[2] / block[2]}}, patch, a, octant).second;
+    };
+    for_each_interface([&](const Voxel& v, const Voxel& w, const Point& p, const Point& q) {
+      const int patch = patch_between(image_->label(v), image_->label(w));
+      const std::array<double, 3> normal = direction(p, q);
+      if (!is_wanted(v, patch, components_->component(v), normal)) return;
+      const Surface_hit_3<K> hit = crossing(p, q, image_->label(v), image_->label(w));
+      if (hit.patch == patch) visit(hit.point, patch, normal);
+    });
     for_each_side([&](const Voxel& v, const Voxel& w, std::size_t axis, int side) {
       const bool inside = image_->contains(w);
-      const int own = image_->label(v), other = inside ? image_->label(w) : 0;
-      const int face = static_cast<int>(2 * axis) + side;
-      const int patch = inside ? patch_between(own, other) : patch_at_border(own, face);
-      if (!all && !seen.emplace(Voxel{{v[0] / block[0], v[1] / block[1], v[2] / block[2]}}, patch,
-                                components_->component(v), face)
-                       .second)
-        return;
-      visit(point_between(v, w, axis, side), patch, inside ? normal(v, w, axis) : axis_direction(axis));
+      const std::size_t a = components_->component(v);
+      if (inside && has_interface_[a]) return;
+      const int patch = inside ? patch_between(image_->label(v), image_->label(w))
+                               : patch_at_border(image_->label(v), static_cast<int>(2 * axis) + side);
+      std::array<double, 3> normal{{0, 0, 0}};
+      normal[axis] = side == 0 ? -1 : 1;
+      if (is_wanted(v, patch, a, normal)) visit(point_between(v, w, axis, side), patch, normal);
     });
   }
 
@@ -161,13 +185,6 @@ private:
   using Voxel = Voxel_image_3::Voxel;
 
   int number_of_interfaces() const { return labels_ * (labels_ - 1) / 2; }
-
-  static std::array<double, 3> axis_direction(std::size_t axis)
-  {
-    std::array<double, 3> direction{{0, 0, 0}};
-    direction[axis] = 1;
-    return direction;
-  }
 
   /// The face of the box that a point lies farthest beyond.
   int face_passed(const Point& p) const
@@ -236,27 +253,70 @@ private:
     return Point(x[0], x[1], x[2]);
   }
 
-  /// About the normal of the boundary between neighbours, out of which of the voxels around have the label of the
-  /// first.
-  std::array<double, 3> normal(const Voxel& v, const Voxel& w, std::size_t axis) const
+  static std::array<double, 3> direction(const Point& p, const Point& q)
   {
-    const int label = image_->label(v);
-    std::array<double, 3> gradient;
-    for (std::size_t k = 0; k < 3; ++k) {
-      double difference = 0;
-      for (const Voxel& from : {v, w})
-        for (const int side : {-1, 1}) {
-          Voxel x = from;
-          x[k] += side;
-          if (!image_->contains(x)) x = from;
-          difference += side * (image_->label(x) == label);
+    std::array<double, 3> d{{q.x() - p.x(), q.y() - p.y(), q.z() - p.z()}};
+    const double length = std::hypot(d[0], d[1], d[2]);
+    for (double& x : d) x /= length;
+    return d;
+  }
+
+  // ---- Interfaces between eight voxels
+
+  /// Calls `visit(voxel, other, p, q)` for each two labels among eight voxels around a point, the larger first: a voxel
+  /// of each, and the mean places of the two, between which they meet. There the boundary is flattest; on the lines
+  /// between centers it has its tips, which refinement would follow.
+  template <class Visit>
+  void for_each_interface(const Visit& visit) const
+  {
+    for_each_mixed_cell([&](const std::array<Voxel, 8>& voxels, const std::array<int, 8>& labels) {
+      for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t j = 0; j < 8; ++j) {
+          if (labels[i] <= labels[j] || is_repeated(labels, i) || is_repeated(labels, j)) continue;
+          const Point p = mean_place(voxels, labels, labels[i]), q = mean_place(voxels, labels, labels[j]);
+          if (label(p) == labels[i] && label(q) == labels[j]) visit(voxels[i], voxels[j], p, q);
         }
-      gradient[k] = difference / image_->spacing()[k];
-    }
-    const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
-    if (!(length > 0)) return axis_direction(axis);
-    for (double& g : gradient) g /= length;
-    return gradient;
+    });
+  }
+
+  /// Calls `visit(voxels, labels)` for each eight voxels around a point that haven't all the same label; at the border
+  /// some are taken twice.
+  template <class Visit>
+  void for_each_mixed_cell(const Visit& visit) const
+  {
+    std::array<std::ptrdiff_t, 3> last;
+    for (std::size_t k = 0; k < 3; ++k) last[k] = static_cast<std::ptrdiff_t>(image_->size()[k]) - 1;
+    Voxel low;
+    for (low[2] = 0; low[2] < (std::max)(last[2], std::ptrdiff_t(1)); ++low[2])
+      for (low[1] = 0; low[1] < (std::max)(last[1], std::ptrdiff_t(1)); ++low[1])
+        for (low[0] = 0; low[0] < (std::max)(last[0], std::ptrdiff_t(1)); ++low[0]) {
+          std::array<Voxel, 8> voxels;
+          std::array<int, 8> labels;
+          bool all_same = true;
+          for (std::size_t i = 0; i < 8; ++i) {
+            for (std::size_t k = 0; k < 3; ++k)
+              voxels[i][k] = (std::min)(low[k] + static_cast<std::ptrdiff_t>(i >> k & 1), last[k]);
+            labels[i] = image_->label(voxels[i]);
+            all_same = all_same && labels[i] == labels[0];
+          }
+          if (!all_same) visit(voxels, labels);
+        }
+  }
+
+  static bool is_repeated(const std::array<int, 8>& labels, std::size_t i)
+  {
+    const auto end = labels.begin() + static_cast<std::ptrdiff_t>(i);
+    return std::find(labels.begin(), end, labels[i]) != end;
+  }
+
+  Point mean_place(const std::array<Voxel, 8>& voxels, const std::array<int, 8>& labels, int label) const
+  {
+    std::array<double, 3> x{{0, 0, 0}};
+    const auto n = static_cast<double>(std::count(labels.begin(), labels.end(), label));
+    for (std::size_t i = 0; i < 8; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (labels[i] == label) x[k] += image_->coordinate(k, static_cast<double>(voxels[i][k])) / n;
+    return Point(x[0], x[1], x[2]);
   }
 
   // ---- Seeds
@@ -272,15 +332,27 @@ private:
     const bool all = block == Voxel{{1, 1, 1}};
     std::set<std::tuple<Voxel, int, std::size_t, std::size_t>> seen;
     std::map<std::tuple<int, std::size_t, std::size_t>, std::vector<Point>> parts;
+    has_interface_.assign(components_->components().size(), false);
+    const auto is_wanted = [&](const Voxel& v, int patch, std::size_t a, std::size_t b) {
+      return all || components_->components()[a].voxels <= few_voxels ||
+             seen.emplace(Voxel{{v[0] / block[0], v[1] / block[1], v[2] / block[2]}}, patch, a, b).second;
+    };
+    for_each_interface([&](const Voxel& v, const Voxel& w, const Point& p, const Point& q) {
+      const int patch = patch_between(image_->label(v), image_->label(w));
+      const std::size_t a = components_->component(v), b = components_->component(w);
+      if (!is_wanted(v, patch, a, b)) return;
+      const Surface_hit_3<K> hit = crossing(p, q, image_->label(v), image_->label(w));
+      if (hit.patch != patch) return; // a third label lies between
+      parts[{patch, a, b}].push_back(hit.point);
+      has_interface_[a] = true;
+    });
     for_each_side([&](const Voxel& v, const Voxel& w, std::size_t axis, int side) {
       const bool inside = image_->contains(w);
       const std::size_t a = components_->component(v), b = inside ? components_->component(w) : 0;
+      if (inside && has_interface_[a]) return;
       const int patch = inside ? patch_between(image_->label(v), image_->label(w))
                                : patch_at_border(image_->label(v), static_cast<int>(2 * axis) + side);
-      if (!all && components_->components()[a].voxels > few_voxels &&
-          !seen.emplace(Voxel{{v[0] / block[0], v[1] / block[1], v[2] / block[2]}}, patch, a, b).second)
-        return;
-      parts[{patch, a, b}].push_back(point_between(v, w, axis, side));
+      if (is_wanted(v, patch, a, b)) parts[{patch, a, b}].push_back(point_between(v, w, axis, side));
     });
     std::vector<std::vector<std::vector<Point>>> seeds;
     for (auto& [key, points] : parts) {
@@ -291,11 +363,13 @@ private:
     Base::set_seeds(std::move(seeds));
   }
 
+  static constexpr std::size_t few_seeds = 100;
   static constexpr std::size_t few_voxels = 1000;
 
   std::shared_ptr<const Voxel_image_3> image_;
   int labels_;
   std::shared_ptr<const Voxel_components_3> components_;
+  std::vector<char> has_interface_; ///< by component, whether `for_each_interface()` has points of it
 };
 
 } // namespace weft
