@@ -269,8 +269,11 @@ Status run(const Request& request)
   Meshing_progress progress(!request.quiet, 0.1);
   weft::Mesh_options_3 options = request.options;
   options.visitor = std::ref(progress);
+  const mesh_3_program::Bounds asked = bounds(request, *domain);
   options.size_floor = domain->least_edge();
-  const auto result = domain->mesh(bounds(request, *domain), options);
+  for (const auto& [label, size] : asked.size_of) options.size_floor = std::min(options.size_floor, 0.3 * size);
+  options.size_floor = std::min(options.size_floor, 0.3 * asked.size);
+  const auto result = domain->mesh(asked, options);
   progress.bar().clear();
 
   const weft::Mesh_report_3& report = mesh_3_program::report(*result);

@@ -218,7 +218,8 @@ private:
       add_crossing(square[i], square[next], i % 2 == 0 ? u : v, axis, side, layer, keys[i]);
     }
     if (crossed.empty()) return;
-    const auto add = [&](std::size_t i, std::size_t j) { add_curve(keys[i], keys[j], u, v); };
+    const auto sides = [&](std::size_t i) { return std::array<int, 2>{{labels[i], labels[(i + 1) % 4]}}; };
+    const auto add = [&](std::size_t i, std::size_t j) { add_curve(keys[i], keys[j], u, v, sides(i)); };
     if (crossed.size() == 2) return add(crossed[0], crossed[1]);
     Key middle{};
     middle[axis] = layer, middle[u] = 2 * low[u] + 1, middle[v] = 2 * low[v] + 1;
@@ -244,36 +245,46 @@ private:
     place[u] = image_.coordinate(u, static_cast<double>(low[u]) + at[0]);
     place[v] = image_.coordinate(v, static_cast<double>(low[v]) + at[1]);
     add_place(middle, place);
-    for (const std::size_t i : crossed) add_curve(keys[i], middle, u, v);
+    for (const std::size_t i : crossed) add_curve(keys[i], middle, u, v, sides(i));
   }
 
-  /// A curve in a square, with three points on the way.
-  void add_curve(const Key& from, const Key& to, std::size_t u, std::size_t v)
+  /// A curve in a square, with three points on the way. \param sides the labels beside it.
+  void add_curve(const Key& from, const Key& to, std::size_t u, std::size_t v, const std::array<int, 2>& sides)
   {
-    const Point a = places_.at(from), b = places_.at(to), middle = refined(a, b, u, v);
-    add_piece(from, to, {refined(a, middle, u, v), middle, refined(middle, b, u, v)});
+    const Point a = places_.at(from), b = places_.at(to), middle = refined(a, b, u, v, sides);
+    add_piece(from, to, {refined(a, middle, u, v, sides), middle, refined(middle, b, u, v, sides)});
   }
 
-  /// A point of the curve beside the middle of two of its points.
-  Point refined(const Point& a, const Point& b, std::size_t u, std::size_t v) const
+  /// A point of the curve beside the middle of two of its points: where the labels change nearest to it.
+  Point refined(const Point& a, const Point& b, std::size_t u, std::size_t v, const std::array<int, 2>& sides) const
   {
-    std::array<double, 3> p{{a.x(), a.y(), a.z()}}, q{{b.x(), b.y(), b.z()}}, middle;
-    for (std::size_t k = 0; k < 3; ++k) middle[k] = 0.5 * (p[k] + q[k]);
-    constexpr double reach = 0.3; // of the length; curves bend less
+    const std::array<double, 3> p{{a.x(), a.y(), a.z()}}, q{{b.x(), b.y(), b.z()}};
     const auto at = [&](double t) {
-      std::array<double, 3> x = middle;
+      std::array<double, 3> x;
+      for (std::size_t k = 0; k < 3; ++k) x[k] = 0.5 * (p[k] + q[k]);
       x[u] -= t * (q[v] - p[v]);
       x[v] += t * (q[u] - p[u]);
       return x;
     };
-    double low = -reach, high = reach;
-    const int label = image_.label_at(at(low));
-    if (label == image_.label_at(at(high))) return Point(middle[0], middle[1], middle[2]);
-    for (int i = 0; i < 30; ++i) {
-      const double t = 0.5 * (low + high);
-      (image_.label_at(at(t)) == label ? low : high) = t;
+    const auto changes = [&](double s, double t) {
+      const int x = image_.label_at(at(s)), y = image_.label_at(at(t));
+      return (x == sides[0] && y == sides[1]) || (x == sides[1] && y == sides[0]);
+    };
+    constexpr int steps = 10;
+    constexpr double step = 0.05; // of the length; curves bend less than all of them
+    double t = 0;
+    for (int k = 0; k < 2 * steps; ++k) {
+      double low = (k % 2 == 0 ? k / 2 : -k / 2 - 1) * step, high = low + step;
+      if (!changes(low, high)) continue;
+      const int label = image_.label_at(at(low));
+      for (int i = 0; i < 30; ++i) {
+        const double middle = 0.5 * (low + high);
+        (image_.label_at(at(middle)) == label ? low : high) = middle;
+      }
+      t = 0.5 * (low + high);
+      break;
     }
-    const auto x = at(0.5 * (low + high));
+    const auto x = at(t);
     return Point(x[0], x[1], x[2]);
   }
 
