@@ -92,7 +92,7 @@ struct Mesh_options_3
   bool lattice = true;   ///< fill thick parts with a body-centred cubic lattice where the size is constant
   bool give_up_creases = true; ///< of those found by angle, where criteria can't hold with them; for `mesh_surface_3()`
   double initial_loosening = 2.6;      ///< factor by which criteria are loosened for the first mesh
-  std::size_t max_batches = 2000;      ///< most batches of refinement
+  std::size_t max_batches = 100000;    ///< most batches of refinement
   std::size_t max_vertices = 20000000; ///< vertex budget
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
   unsigned seed = 0;                                           ///< start of every random choice

@@ -158,6 +158,30 @@ public:
     return found || nearest(p).squared_distance <= squared_distance;
   }
 
+  /// Calls `visit(triangle)` for the triangles that are as near to p as that, in no order, until one call returns true;
+  /// whether one did.
+  template <class Visit>
+  bool visit_within(const Point& p, double squared_distance, const Visit& visit) const
+  {
+    if (boxes_.empty()) return false;
+    const std::array<float, 3> from = rounded(framed(p));
+    const double most =
+        std::sqrt(squared_distance) * boxes_.frame().scale * (1 + 1e-6) + 2 * double(distance_error(from));
+    bool found = false;
+    boxes_.visit_nearest(from, static_cast<float>(most * most * (1 + 1e-6)), [&](std::uint32_t block, float limit) {
+      alignas(16) float lower[4];
+      blocks_[block].squared_distances(from).lower.store(lower);
+      for (std::uint32_t lane = 0; lane < 4 && !found; ++lane) {
+        if (!(lower[lane] < limit)) continue; // or it is missing: NaN
+        const Triangle& t = triangles_[4 * block + lane];
+        const Xyz_3 d = difference(nearest_point_on_triangle(p, t.points[0], t.points[1], t.points[2]), p);
+        found = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= squared_distance && visit(t);
+      }
+      return found ? 0.f : limit;
+    });
+    return found;
+  }
+
   /// A lower bound of the distance to the surface that is at most some 1e-6 diagonals of the box too small.
   double clearance(const Point& p) const
   {

@@ -14,6 +14,14 @@
 
 namespace weft::internal {
 
+/// The k-th number of the low-discrepancy sequence of van der Corput, in [0, 1).
+inline double radical_inverse(std::size_t k, std::size_t base)
+{
+  double value = 0, digit = 1;
+  for (; k > 0; k /= base) value += static_cast<double>(k % base) * (digit /= static_cast<double>(base));
+  return value;
+}
+
 /// Calls `add(point)` for each. Rows of points stand across the longest side, as many in a row as it is wide: a needle
 /// takes few. At least one, at most about a million.
 template <class Add>

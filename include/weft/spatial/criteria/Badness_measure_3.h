@@ -109,13 +109,12 @@ public:
     const double radius = facet_squared_radius(v[0]->point(), v[1]->point(), v[2]->point());
     if (criteria_->facet_shape > 0)
       badness.add(std::sqrt(radius / shortest) / (factor_ * criteria_->facet_shape), bad_shape);
-    if (criteria_->approximation) {
-      const double bound = factor_ * criteria_->approximation(f.steiner);
+    if (const double bound = approximation(f.steiner, f.patch); bound > 0) {
       badness.add(approximation_error(f) / bound, bad_approximation);
       if (!badness.is_bad()) badness.add(worst_missed_point(f).ratio, bad_approximation);
     }
     const auto own = criteria_->patches.find(f.patch);
-    if (own != criteria_->patches.end()) add_own_criteria(f, v, shortest, radius, own->second, badness);
+    if (own != criteria_->patches.end()) add_own_criteria(v, shortest, radius, own->second, badness);
     if (criteria_->facet_demand && factor_ <= 1)
       badness.add(criteria_->facet_demand({{{&v[0]->point(), &v[1]->point(), &v[2]->point()}},
                                            {{v[0]->location(), v[1]->location(), v[2]->location()}},
@@ -136,19 +135,22 @@ public:
     const Point &a = e.source->point(), &b = e.target->point();
     add_edge(a, b, badness, shortest);
     if (criteria_->crease_size) add_edge(a, b, criteria_->crease_size, badness);
-    if (criteria_->approximation)
-      badness.add(std::sqrt(squared(CGAL::midpoint(a, b), e.steiner)) / (factor_ * criteria_->approximation(e.steiner)),
-                  bad_approximation);
+    if (const double bound = approximation_on_crease(e.steiner, e.crease); bound > 0)
+      badness.add(std::sqrt(squared(CGAL::midpoint(a, b), e.steiner)) / bound, bad_approximation);
     if (!is_on_crease(e.source, e.crease) || !is_on_crease(e.target, e.crease)) badness.add(just_bad, bad_topology);
     if (e.is_tangled) badness.add(just_bad, bad_disk);
     return badness;
   }
 
-  /// Distance from the circumcenter of a facet to its Steiner point.
-  double approximation_error(const typename Restricted::Restricted_facet& f) const
+  /// Distance from the circumcenter of a facet to its Steiner point, which lies on the axis of the facet: its height
+  /// above the facet. The root of the difference of two squared radii would lose half of the digits.
+  static double approximation_error(const typename Restricted::Restricted_facet& f)
   {
-    const double r = facet_squared_radius(vertex(f, 1)->point(), vertex(f, 2)->point(), vertex(f, 3)->point());
-    return std::sqrt((std::max)(0.0, f.squared_radius - r)); // Pythagoras: both lie on the axis of the facet
+    const Point &a = vertex(f, 1)->point(), &b = vertex(f, 2)->point(), &c = vertex(f, 3)->point();
+    const auto normal = CGAL::cross_product(b - a, c - a);
+    const double length = std::sqrt(CGAL::to_double(normal.squared_length()));
+    if (!(length > 0)) return std::sqrt(f.squared_radius); // without an area it has no axis
+    return std::abs(CGAL::to_double((f.steiner - a) * normal)) / length;
   }
 
   /// A point of the surface that a facet misses.
@@ -165,8 +167,8 @@ public:
   Missed_point worst_missed_point(const typename Restricted::Restricted_facet& f) const
   {
     Missed_point worst{f.steiner};
-    if (!criteria_->approximation) return worst;
-    const double bound = factor_ * criteria_->approximation(f.steiner);
+    const double bound = approximation(f.steiner, f.patch);
+    if (bound == 0) return worst;
     const Point &a = vertex(f, 1)->point(), &b = vertex(f, 2)->point(), &c = vertex(f, 3)->point();
     const Prism prism(a, b, c);
     const auto take = [&](const Point& p, double tolerance, bool is_vertex) {
@@ -200,6 +202,20 @@ public:
   double approximation(const Point& p) const
   {
     return criteria_->approximation ? factor_ * criteria_->approximation(p) : 0;
+  }
+  /// On a patch, which may have a bound of its own.
+  double approximation(const Point& p, int patch) const
+  {
+    if (criteria_->patches.empty()) return approximation(p);
+    return factor_ * least_bound(criteria_->approximation, criteria_->own_approximation(patch), p);
+  }
+  /// On a crease: the least of the patches that meet there.
+  double approximation_on_crease(const Point& p, int crease) const
+  {
+    double bound = criteria_->approximation ? criteria_->approximation(p) : 0;
+    if (!criteria_->patches.empty())
+      bound = criteria_->least_own_approximation(mesh_->incidence().patches_of_crease(crease), p, bound);
+    return factor_ * bound;
   }
 
   /// Vertex i in 1..3 of a restricted facet.
@@ -255,14 +271,12 @@ private:
       badness.add(std::sqrt(squared(circumcenter, *p[0]) / shortest) / (factor_ * own.cell_shape), bad_shape);
   }
 
-  void add_own_criteria(const typename Restricted::Restricted_facet& f, const Vertex_handle (&v)[3], double shortest,
-                        double squared_radius, const Patch_criteria_3<Kernel>& own, Badness_3& badness) const
+  void add_own_criteria(const Vertex_handle (&v)[3], double shortest, double squared_radius,
+                        const Patch_criteria_3<Kernel>& own, Badness_3& badness) const
   {
     if (own.size)
       for (int i = 0; i < 3; ++i) add_edge(v[i]->point(), v[(i + 1) % 3]->point(), own.size, badness);
     if (own.facet_shape > 0) badness.add(std::sqrt(squared_radius / shortest) / (factor_ * own.facet_shape), bad_shape);
-    if (own.approximation)
-      badness.add(approximation_error(f) / (factor_ * own.approximation(f.steiner)), bad_approximation);
   }
 
   /// The points that project into a triangle.

@@ -17,6 +17,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace weft {
 
@@ -139,6 +140,13 @@ struct Criteria_3
   {
     const auto own = patches.find(patch);
     return own == patches.end() ? nullptr : &own->second.approximation;
+  }
+
+  /// The least of a bound and those of some patches alone, at a point; 0 if there is none.
+  double least_own_approximation(const std::vector<int>& of_patches, const typename K::Point_3& p, double bound) const
+  {
+    for (const int patch : of_patches) bound = internal::least_bound<K>(bound, own_approximation(patch), p);
+    return bound;
   }
 
   /// \throws Option_error naming the first criterion out of range.

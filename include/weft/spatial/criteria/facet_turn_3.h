@@ -10,6 +10,7 @@
 #include <weft/internal/boxes/coordinates_3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -24,14 +25,24 @@ template <class Oracle>
 struct Has_normals_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().normal(0, 0))>> : std::true_type
 {};
 
-/// Facets whose normal makes less than that cosine with the surface's are turned away from it. Beside edges that nobody
-/// marked as sharp, facets that cut them off are turned by some of what the surface turns there, and stay.
+/// Facets whose normal makes less than that cosine with the surface's are turned away from it.
 constexpr double least_cosine_to_surface = 0.2;
+
+/// Whether the surface Delaunay ball of a facet has an edge of its patch in it that is sharp but no crease.
+template <class Oracle, class Facet>
+bool cuts_sharp_edge(const Oracle& oracle, const Facet& f)
+{
+  bool found = oracle.is_at_acute_edge(f.steiner, std::sqrt(f.squared_radius));
+  oracle.visit_ridges(f.steiner, f.squared_radius, f.patch,
+                      [&found](const auto&, const auto&, bool attracts) { found = found || !attracts; });
+  return found;
+}
 
 /// Least cosine of the angle between the normals of a boundary facet and of its patch, all pointing out of the same
 /// subdomain: at its Steiner point and near its vertices; 1 where that isn't known. The Steiner point alone doesn't
-/// tell: its Voronoi edge leaves a rod however flat, if only the facet across the rod is a little askew.
-/// \tparam Restricted a Restricted_delaunay_3.
+/// tell: its Voronoi edge leaves a rod however flat, if only the facet across the rod is a little askew. Facets that
+/// cut off an edge which is sharp and which nobody marked are turned by as much as the surface turns there: 1 for them,
+/// too. \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
 double cosine_to_surface(const Restricted& mesh, const typename Restricted::Restricted_facet& f)
 {
@@ -62,7 +73,7 @@ double cosine_to_surface(const Restricted& mesh, const typename Restricted::Rest
       const auto hit = mesh.oracle().project_on_patch(typename Restricted::Point(p[0], p[1], p[2]), f.patch);
       least = (std::min)(least, cosine(hit.triangle));
     }
-    return least;
+    return least < least_cosine_to_surface && cuts_sharp_edge(mesh.oracle(), f) ? 1 : least;
   } else {
     static_cast<void>(mesh), static_cast<void>(f);
     return 1;

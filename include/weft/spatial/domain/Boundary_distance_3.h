@@ -10,6 +10,7 @@
 #include <weft/internal/boxes/Segment_hierarchy_3.h>
 #include <weft/internal/boxes/Triangle_hierarchy_3.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +29,7 @@ public:
       : triangles_(patches), segments_(creases), facets_(patches), edges_(creases)
   {}
 
+  /// Counterclockwise seen from outside; between two subdomains, from outside the one with the smaller number.
   void add_facet(const Point& a, const Point& b, const Point& c, int patch)
   {
     Surface_triangle_3<K> t;
@@ -58,6 +60,17 @@ public:
   bool has_facet_within(const Point& p, int patch, double distance) const
   {
     return has_facets(patch) && facets_[static_cast<std::size_t>(patch)].is_within(p, distance * distance);
+  }
+
+  /// Whether a facet of the patch comes that near to a point and looks the same way as a normal, if that isn't zero:
+  /// the other side of a thin part doesn't count.
+  bool has_facet_within(const Point& p, int patch, double distance, const std::array<double, 3>& normal) const
+  {
+    if (!has_facets(patch)) return false;
+    return facets_[static_cast<std::size_t>(patch)].visit_within(p, distance * distance, [&](const auto& t) {
+      const Xyz_3 a = xyz(t.points[0]), n = cross_product(minus(xyz(t.points[1]), a), minus(xyz(t.points[2]), a));
+      return normal == std::array<double, 3>() || dot_product(n, Xyz_3{normal}) > 0;
+    });
   }
 
   double distance_to_facets(const Point& p, int patch) const

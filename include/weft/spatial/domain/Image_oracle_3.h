@@ -130,8 +130,9 @@ public:
   Domain_shape_3 shape() const { return shape_of_image(*image_, *components_); }
 
   /// Calls `visit(point, patch, unit normal)` for a point of each interface between eight voxels, and for centers of
-  /// voxels' faces on the border. Where the voxels are closer than the spacing, for one of those within a spacing with
-  /// the same patch, component and side.
+  /// voxels' faces on the border. Normals point out of the subdomain with the smaller number, but into the outside.
+  /// Where the voxels are closer than the spacing, for one of those within a spacing with the same patch, component and
+  /// side.
   template <class Visit>
   void visit_samples(double spacing, const Visit& visit) const
   {
@@ -147,7 +148,7 @@ public:
     };
     for_each_interface([&](const Voxel& v, const Voxel& w, const Point& p, const Point& q) {
       const int patch = patch_between(image_->label(v), image_->label(w));
-      const std::array<double, 3> normal = direction(p, q);
+      const std::array<double, 3> normal = image_->label(w) == 0 ? direction(p, q) : direction(q, p);
       if (!is_wanted(v, patch, components_->component(v), normal)) return;
       const Surface_hit_3<K> hit = crossing(p, q, image_->label(v), image_->label(w));
       if (hit.patch == patch) visit(hit.point, patch, normal);
@@ -159,7 +160,7 @@ public:
       const int patch = inside ? patch_between(image_->label(v), image_->label(w))
                                : patch_at_border(image_->label(v), static_cast<int>(2 * axis) + side);
       std::array<double, 3> normal{{0, 0, 0}};
-      normal[axis] = side == 0 ? -1 : 1;
+      normal[axis] = (side == 0) == (!inside || image_->label(w) == 0) ? -1 : 1;
       if (is_wanted(v, patch, a, normal)) visit(point_between(v, w, axis, side), patch, normal);
     });
   }

@@ -35,6 +35,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -232,7 +233,8 @@ public:
 
   /// Calls `visit(point, patch, unit normal)` for points of the boundary no farther apart than about that: the corners
   /// of triangles and points between them, up to a million a triangle; of triangles that are small beside the spacing
-  /// one in each cube of that grid that looks the same way. O(n + samples).
+  /// one in each cube of that grid that looks the same way. Normals point out of the domain, and between two subdomains
+  /// out of the one with the smaller number. O(n + samples).
   template <class Visit>
   void visit_samples(double spacing, const Visit& visit) const
   {
@@ -250,7 +252,9 @@ public:
       Xyz_3 normal = internal::cross_product(sides[0], sides[1]);
       const double length = internal::norm(normal);
       if (!(length > 0)) continue;
-      for (double& n : normal) n /= length;
+      const auto [behind, before] = this->sides(t);
+      const double outwards = behind != 0 && (before == 0 || behind < before) ? 1 : -1;
+      for (double& n : normal) n *= outwards / length;
       const auto is_short = [spacing](const Xyz_3& side) { return internal::norm(side) < spacing / 2; };
       if (std::all_of(sides.begin(), sides.end(), is_short)) {
         Xyz_3 p{};
@@ -273,11 +277,47 @@ public:
     }
   }
 
+  /// Calls `visit(point, unit normal, area)` for n points of the boundary, each of which stands for the same area.
+  /// O(triangles).
+  template <class Visit>
+  void visit_spread_points(std::size_t n, const Visit& visit) const
+  {
+    using internal::Xyz_3;
+    const auto corner = [this](std::size_t t, std::size_t i) {
+      return internal::xyz(complex_.points[complex_.triangles[t][i]]);
+    };
+    const auto cross_product = [&](std::size_t t) {
+      return internal::cross_product(internal::minus(corner(t, 1), corner(t, 0)),
+                                     internal::minus(corner(t, 2), corner(t, 0)));
+    };
+    double total = 0, passed = 0;
+    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) total += internal::norm(cross_product(t)) / 2;
+    std::size_t k = 0;
+    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
+      Xyz_3 normal = cross_product(t);
+      const double length = internal::norm(normal);
+      if (!(length > 0)) continue;
+      for (double& x : normal) x /= length;
+      const double n_as_double = static_cast<double>(n);
+      for (passed += length / 2; k < n && (static_cast<double>(k) + 0.5) / n_as_double * total < passed; ++k) {
+        double u = internal::radical_inverse(k + 1, 2), v = internal::radical_inverse(k + 1, 3);
+        if (u + v > 1) u = 1 - u, v = 1 - v;
+        const Xyz_3 a = corner(t, 0), ab = internal::minus(corner(t, 1), a), ac = internal::minus(corner(t, 2), a);
+        visit(Point(a[0] + u * ab[0] + v * ac[0], a[1] + u * ab[1] + v * ac[1], a[2] + u * ab[2] + v * ac[2]), normal,
+              total / n_as_double);
+      }
+    }
+  }
+
   /// Distance from a point of the boundary to where the boundary is met again along a normal, on either side; at most
   /// `reach`, which it is for a zero normal.
   double thickness(const Point& p, const std::array<double, 3>& normal, double reach) const
   {
     if (normal == std::array<double, 3>()) return reach;
+    // The point itself is on the boundary, up to rounding.
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(bbox().min(k)), std::abs(bbox().max(k))});
+    const double least = 16 * std::numeric_limits<double>::epsilon() * largest;
     double nearest = reach;
     std::vector<Surface_hit_3<K>> hits;
     for (const double side : {-1., 1.}) {
@@ -285,7 +325,7 @@ public:
         return Point(p.x() + side * d * normal[0], p.y() + side * d * normal[1], p.z() + side * d * normal[2]);
       };
       hits.clear();
-      surface_.intersect(at(1e-3 * reach), at(nearest), hits);
+      surface_.intersect(at(least), at(nearest), hits);
       for (const auto& hit : hits)
         nearest = (std::min)(nearest, internal::norm(internal::minus(internal::xyz(hit.point), internal::xyz(p))));
     }

@@ -5,7 +5,6 @@
 #ifndef WEFT_SPATIAL_DOMAIN_BOUNDARY_SAMPLES_3_H
 #define WEFT_SPATIAL_DOMAIN_BOUNDARY_SAMPLES_3_H
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -15,14 +14,19 @@
 
 namespace weft::internal {
 
-/// Whether an oracle has samples of its boundary, with normals, and knows how thick it is there.
+template <class Point>
+struct Ignore_sample_3
+{
+  void operator()(const Point&, int, const std::array<double, 3>&) const {}
+};
+
+/// Whether an oracle has samples of its boundary, with normals.
 template <class Oracle, class = void>
 struct Has_boundary_samples_3 : std::false_type
 {};
 template <class Oracle>
-struct Has_boundary_samples_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().thickness(
-                                          std::declval<const typename Oracle::Point&>(), std::array<double, 3>(), 1.))>>
-    : std::true_type
+struct Has_boundary_samples_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().visit_samples(
+                                          1., Ignore_sample_3<typename Oracle::Point>()))>> : std::true_type
 {};
 
 /// Distance that facets and crease edges may have from points of the boundary: two and a half times the approximation
@@ -33,11 +37,10 @@ inline double boundary_tolerance(double approximation)
   return approximation > 0 ? 2.5 * approximation : std::numeric_limits<double>::infinity();
 }
 
-/// Calls `visit(point, patch, tolerance)` for points of the boundary of a domain that have no facet of their patch
-/// within their tolerance. Points are the oracle's own samples, no farther apart than `spacing`, where it has them,
-/// else seeds of its patches. Where the boundary turns back within reach of the tolerance (a rod, a rib, a slot), most
-/// of that distance is the tolerance, so that one side can't stand for the other; but not less than a quarter of the
-/// approximation bound.
+/// Calls `visit(point, patch, normal)` for points of the boundary of a domain that have no facet of their patch within
+/// their tolerance that looks the same way, nor any within a tenth of it: surfaces may have folds as small as that.
+/// Points are the oracle's own samples, no farther apart than `spacing`, where
+/// it has them, else seeds of its patches.
 /// \param distance a Boundary_distance_3 of facets.
 /// \param approximation called with a point and its patch, returns the approximation bound there, 0 if there is none.
 /// \returns how many points were looked at.
@@ -46,33 +49,24 @@ std::size_t visit_missed_samples(const Oracle& oracle, const Distance& distance,
                                  const Approximation& approximation, const Visit& visit)
 {
   using Point = typename Oracle::Point;
-  constexpr double part_of_thickness = 0.8; // less than one: one side can't stand for the other
+  constexpr std::array<double, 3> none{};
   std::size_t samples = 0;
+  const auto look = [&](const Point& p, int patch, const std::array<double, 3>& normal) {
+    ++samples;
+    const double tolerance = boundary_tolerance(approximation(p, patch));
+    const bool is_met = std::isfinite(tolerance) ? distance.has_facet_within(p, patch, 0.1 * tolerance) ||
+                                                       distance.has_facet_within(p, patch, tolerance, normal)
+                                                 : distance.has_facets(patch);
+    if (!is_met) visit(p, patch, normal);
+  };
   if constexpr (Has_boundary_samples_3<Oracle>::value) {
-    oracle.visit_samples(spacing, [&](const Point& p, int patch, const std::array<double, 3>& normal) {
-      ++samples;
-      const double bound = approximation(p, patch), most = boundary_tolerance(bound), least = 0.25 * bound;
-      if (!std::isfinite(most)) {
-        if (!distance.has_facets(patch)) visit(p, patch, most);
-        return;
-      }
-      if (distance.has_facet_within(p, patch, least)) return;
-      const double tolerance =
-          (std::max)(least, (std::min)(most, part_of_thickness * oracle.thickness(p, normal, 2 * most)));
-      if (!distance.has_facet_within(p, patch, tolerance)) visit(p, patch, tolerance);
-    });
+    static_cast<void>(none);
+    oracle.visit_samples(spacing, look);
   } else {
     constexpr std::size_t seeds = 64;
-    for (int p = 0; p < oracle.number_of_patches(); ++p) {
-      if (!oracle.is_expected(p)) continue;
-      for (const auto& seed : oracle.patch_seeds(p, seeds)) {
-        ++samples;
-        const double most = boundary_tolerance(approximation(seed.point, p));
-        const bool is_near =
-            std::isfinite(most) ? distance.has_facet_within(seed.point, p, most) : distance.has_facets(p);
-        if (!is_near) visit(seed.point, p, most);
-      }
-    }
+    for (int p = 0; p < oracle.number_of_patches(); ++p)
+      if (oracle.is_expected(p))
+        for (const auto& seed : oracle.patch_seeds(p, seeds)) look(seed.point, p, none);
   }
   return samples;
 }

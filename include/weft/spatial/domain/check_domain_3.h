@@ -51,21 +51,37 @@ void visit_crease_samples(const Oracle& oracle, double spacing, const Visit& vis
   }
 }
 
+constexpr double part_of_facets = 0.25;
+
+/// Side of a square with the mean area of boundary facets; a hundredth of the domain's diagonal where there are none.
+template <class K, class Oracle>
+double mean_width_of_facets(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle)
+{
+  double area = 0;
+  for (const auto& v : mesh.facets) {
+    const Xyz_3 a = xyz(mesh.points[v[0]]);
+    area += norm(cross_product(minus(xyz(mesh.points[v[1]]), a), minus(xyz(mesh.points[v[2]]), a))) / 2;
+  }
+  const auto box = oracle.bbox();
+  const double diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+  return area > 0 ? std::sqrt(area / static_cast<double>(mesh.facets.size())) : diagonal / 100;
+}
+
 } // namespace internal
 
 /// Compares a mesh with its domain.
 ///
-/// An oracle may have three more members for this; without them the comparison knows what seeds of patches tell.
+/// An oracle may have two more members for this; without them the comparison knows what seeds of patches tell.
 /// `shape()` returns a Domain_shape_3. `visit_samples(spacing, visit)` calls `visit(point, patch, unit normal)` for
-/// points of the boundary no farther apart than that, with zero for the normal where there is none. `thickness(point,
-/// normal, reach)` is the distance to where the boundary is met again along the normal, at most `reach`.
+/// points of the boundary no farther apart than that, with zero for the normal where there is none. The normal points
+/// out of the domain, and between two subdomains out of the one with the smaller number, as facets of meshes look.
 ///
 /// O((n + samples) log n) time for n elements of the mesh.
 /// \param approximation distance of facets from the boundary that was asked for, in the input's units: a number, or
 ///   called with a point and a patch, -1 on creases. 0 if none was: then patches and creases need only have some facet
 ///   or edge, and volumes may differ.
-/// \param spacing of samples, in the input's units; 0: eight times the bound, where it is a number, at least a
-///   thousandth of the bounding box's diagonal.
+/// \param spacing of samples, in the input's units; 0: eight times the bound, where it is a number, at least a quarter
+///   of the boundary facets' mean width.
 /// \param missed if not null, gets the samples that are missed, with their patches.
 /// \pre Patches and creases of the mesh have the numbers that the oracle gives them.
 template <class K, class Oracle, class Approximation>
@@ -96,15 +112,13 @@ Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Orac
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     distance.add_edge(mesh.points[mesh.edges[e][0]], mesh.points[mesh.edges[e][1]], mesh.creases[e]);
   distance.build();
-  const auto box = oracle.bbox();
-  const double extent = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   if (!(spacing > 0)) {
-    spacing = 1e-3 * extent;
+    spacing = internal::part_of_facets * internal::mean_width_of_facets(mesh, oracle);
     if constexpr (is_number) spacing = std::max(spacing, 8 * static_cast<double>(approximation));
   }
   constexpr std::size_t most_measured = 1000; // how far what is missed is off; measuring that is dear
   result.samples =
-      internal::visit_missed_samples(oracle, distance, spacing, bound_at, [&](const Point& p, int patch, double) {
+      internal::visit_missed_samples(oracle, distance, spacing, bound_at, [&](const Point& p, int patch, const auto&) {
         if (++result.missed_patch_samples <= most_measured)
           result.largest_distance = std::max(result.largest_distance, distance.distance_to_facets(p, patch));
         if (missed) missed->push_back({p, patch});

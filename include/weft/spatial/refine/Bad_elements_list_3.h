@@ -186,7 +186,7 @@ private:
 
   bool is_far(const Restricted_facet& f) const
   {
-    const double bound = Approximation_multiples::facet * measure_.approximation(f.steiner);
+    const double bound = Approximation_multiples::facet * measure_.approximation(f.steiner, f.patch);
     if (bound == 0) return false;
     const Point &a = Measure::vertex(f, 1)->point(), &b = Measure::vertex(f, 2)->point(),
                 &c = Measure::vertex(f, 3)->point();

@@ -12,6 +12,8 @@
 #include <weft/spatial/domain/boundary_samples_3.h>
 #include <weft/spatial/refine/Crease_divider_3.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -45,7 +47,8 @@ public:
     const auto& oracle = mesh_.oracle();
     for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) {
       const auto& points = mesh_.creases().points(c);
-      const Crease_divider_3<Kernel> divider(points, criteria_);
+      const Crease_divider_3<Kernel> divider(points, criteria_,
+                                             mesh_.incidence().patches_of_crease(static_cast<int>(c)));
       const std::size_t least = points.front() == points.back() ? 3 : 1, parts = divider.parts(least);
       for (std::size_t k = oracle.crease_is_closed(static_cast<int>(c)) ? 0 : 1; k < parts; ++k) {
         if (k >= least && !has_room()) break;
@@ -86,17 +89,24 @@ public:
       Boundary_distance_3<Kernel> distance(static_cast<std::size_t>(oracle.number_of_patches()), 0);
       for (const auto& f : mesh_.facets()) {
         if (f.cell == typename Restricted::Cell_handle()) continue;
-        const auto at = [&f](int i) { return f.cell->vertex((f.index + i) % 4)->point(); };
-        distance.add_facet(at(1), at(2), at(3), f.patch);
+        // Seen from outside the cell that the facet belongs to.
+        const int here = f.cell->subdomain(), there = f.cell->neighbor(f.index)->subdomain();
+        const bool is_own = here != 0 && (there == 0 || here < there);
+        const auto at = [&f](int i) {
+          return f.cell->vertex(Restricted::Triangulation::vertex_triple_index(f.index, i))->point();
+        };
+        distance.add_facet(at(is_own ? 2 : 0), at(1), at(is_own ? 0 : 2), f.patch);
       }
       distance.build();
       std::vector<std::pair<Point, Vertex_location_3>> missed;
       Point_grid_3 chosen(0.25 * approximation);
       const auto bound = [approximation](const Point&, int) { return approximation; };
       visit_missed_samples(oracle, distance, spacing_of_missed * approximation, bound,
-                           [&](const Point& p, int patch, double tolerance) {
+                           [&](const Point& p, int patch, const std::array<double, 3>& normal) {
                              if (mesh_.vertices().size() + missed.size() >= most_vertices_) return;
-                             if (chosen.add(xyz(p), tolerance)) missed.push_back({p, {2, patch}});
+                             const double apart =
+                                 (std::max)(0.25 * approximation, 0.8 * oracle.thickness(p, normal, 4 * approximation));
+                             if (chosen.add(xyz(p), apart)) missed.push_back({p, {2, patch}});
                            });
       const std::size_t before = mesh_.vertices().size();
       for (const auto& [p, location] : missed) mesh_.insert(p, location); // one by one: some may be vertices

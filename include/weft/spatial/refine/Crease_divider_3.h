@@ -28,10 +28,11 @@ class Crease_divider_3
 public:
   using Point = typename K::Point_3;
 
-  /// Both have to live as long as this object.
+  /// All have to live as long as this object.
   /// \param points of the polyline; that of a cycle repeats the first at its end.
-  Crease_divider_3(const std::vector<Point>& points, const Criteria_3<K>& criteria)
-      : points_(points), criteria_(criteria), lengths_(1, 0)
+  /// \param patches that meet there, and may have bounds of their own.
+  Crease_divider_3(const std::vector<Point>& points, const Criteria_3<K>& criteria, const std::vector<int>& patches)
+      : points_(points), criteria_(criteria), patches_(patches), lengths_(1, 0)
   {
     for (std::size_t i = 1; i < points.size(); ++i)
       lengths_.push_back(lengths_.back() + length(points[i - 1], points[i]));
@@ -72,8 +73,10 @@ private:
     const Point a = at(from), b = at(to), middle = CGAL::midpoint(a, b), on_crease = at(0.5 * (from + to));
     double size = criteria_.size.is_constant() ? criteria_.size.constant() : criteria_.size(middle);
     if (criteria_.crease_size) size = (std::min)(size, criteria_.crease_size(middle));
-    return length(a, b) <= size &&
-           (!criteria_.approximation || length(middle, on_crease) <= criteria_.approximation(on_crease));
+    if (length(a, b) > size) return false;
+    const double everywhere = criteria_.approximation ? criteria_.approximation(on_crease) : 0,
+                 bound = criteria_.least_own_approximation(patches_, on_crease, everywhere);
+    return bound == 0 || length(middle, on_crease) <= bound;
   }
 
   bool fits_evenly(std::size_t n) const
@@ -95,6 +98,7 @@ private:
 
   const std::vector<Point>& points_;
   const Criteria_3<K>& criteria_;
+  const std::vector<int>& patches_;
   std::vector<double> lengths_;
 };
 

@@ -120,6 +120,9 @@ public:
     double floor = 1e-3 * (criteria_.size.is_constant() ? (std::min)(diagonal, criteria_.size.constant()) : diagonal);
     if (criteria_.approximation && criteria_.approximation.is_constant())
       floor = (std::min)(floor, Approximation_multiples::size_floor * criteria_.approximation.constant());
+    for (const auto& [patch, own] : criteria_.patches)
+      if (own.approximation && own.approximation.is_constant())
+        floor = (std::min)(floor, Approximation_multiples::size_floor * own.approximation.constant());
     return floor;
   }
 

@@ -23,6 +23,7 @@
 #include <weft/spatial/run/fill_report_3.h>
 #include <weft/spatial/run/Initial_vertices_3.h>
 #include <weft/spatial/run/Refinement_3.h>
+#include <weft/spatial/run/require_thickness_3.h>
 #include <weft/spatial/run/restart_where_bad_3.h>
 
 #include <algorithm>
@@ -76,6 +77,7 @@ public:
   void meet_criteria()
   {
     run_.begin_stage("initialisation", Stage::seeding);
+    if (!initial_) require_thickness(oracle_, criteria_, refinement_.size_floor(), options_.max_vertices);
     if (initial_) interior_ = insert_boundary(*initial_, mesh_);
     goes_on_ = initial_ ? visit(0) : refinement_.mesh_first_surface();
     run_.begin_stage("surface", Stage::refinement);

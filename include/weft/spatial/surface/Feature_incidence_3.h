@@ -78,6 +78,13 @@ public:
   /// Creases that end in a feature vertex, in order; one that starts and ends there counts once.
   const std::vector<int>& creases_of_corner(int corner) const { return creases_of_corner_[internal::as_index(corner)]; }
 
+  /// Patches that meet at a crease, in order; none where that isn't known.
+  const std::vector<int>& patches_of_crease(int crease) const
+  {
+    static const std::vector<int> none;
+    return knows_patches_ ? patches_of_crease_[internal::as_index(crease)] : none;
+  }
+
   /// Whether a location lies on the closure of a patch, as far as that is known.
   bool is_on_patch(const Vertex_location_3& at, int patch) const
   {
