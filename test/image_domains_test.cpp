@@ -219,7 +219,8 @@ TEST_CASE("the shape of an image has the volume of random samples and the topolo
     for (const auto& [l, topology] : wanted) {
       CHECK(shape.at(l).components == topology[0]);
       CHECK(shape.at(l).euler == topology[1]);
-      CHECK(shape.at(l).volume == Approx(volume[l]).epsilon(0.03));
+      const double deviation = std::sqrt(volume[l] * 13 * 12 * 11 / 150000); // of the random samples
+      CHECK(shape.at(l).volume == Approx(volume[l]).margin(4 * deviation));
     }
   };
   check([&](const Voxel& v) { return middle_distance(v, 6, 6, 5) < 4.2; }, {{1, {{1, 2}}}});
@@ -355,8 +356,9 @@ TEST_CASE("what fills an image to its border has flat faces, sharp edges and all
   const Size size{{9, 8, 10}};
   const auto image = grains(size, 3, 2);
   const Oracle oracle = weft::image_oracle_3<K>(image);
-  const Meshed result = mesh_of(oracle, 3, 0.5, 0.3);
+  const Meshed result = mesh_of(oracle, 1.5, 0.3, 0.3);
   INFO(result.report);
+  CHECK(result.report.ok());
   auto volume = volumes(result.mesh);
   auto wanted = sampled_volumes(image, 300000);
   double sum = 0;
@@ -364,7 +366,7 @@ TEST_CASE("what fills an image to its border has flat faces, sharp edges and all
     CHECK(own == Approx(wanted[label]).epsilon(0.03));
     sum += own;
   }
-  CHECK(sum == Approx(9 * 8 * 10).epsilon(1e-3));
+  CHECK(sum == Approx(9 * 8 * 10).epsilon(0.003));
   const CGAL::Bbox_3 b = oracle.bbox();
   const double faces[] = {b.xmin(), b.xmax(), b.ymin(), b.ymax(), b.zmin(), b.zmax()};
   std::array<double, 6> areas{};
@@ -375,11 +377,15 @@ TEST_CASE("what fills an image to its border has flat faces, sharp edges and all
     const auto n = CGAL::cross_product(result.mesh.points[v[1]] - result.mesh.points[v[0]],
                                        result.mesh.points[v[2]] - result.mesh.points[v[0]]);
     areas[static_cast<std::size_t>(face)] += std::abs(CGAL::to_double(n[face / 2])) / 2;
-    for (const std::size_t i : v) CHECK(result.mesh.points[i][face / 2] == faces[face]);
   }
   for (const int face : {0, 1, 2, 3, 4, 5}) {
     const double area = 9. * 8 * 10 / static_cast<double>(size[static_cast<std::size_t>(face / 2)]);
-    CHECK(areas[static_cast<std::size_t>(face)] == Approx(area).epsilon(2e-3));
+    CHECK(areas[static_cast<std::size_t>(face)] == Approx(area).epsilon(0.01));
+  }
+  for (std::size_t v = 0; v < result.mesh.points.size(); ++v) {
+    const auto& at = result.mesh.locations[v];
+    const int face = at.dimension == 2 ? oracle.face_of_patch(at.index) : -1;
+    if (face >= 0) CHECK(result.mesh.points[v][face / 2] == faces[face]);
   }
   std::set<Point> corners;
   for (const std::size_t v : result.mesh.corners) corners.insert(result.mesh.points[v]);
