@@ -26,7 +26,8 @@ namespace concepts {
 ///
 /// examples/custom_oracle.h is an oracle with all of it.
 ///
-/// Models: weft::Polyhedral_oracle_3, weft::Implicit_oracle_3, weft::Labelled_oracle_3, weft::Mesh_domain_oracle_3.
+/// Models: weft::Polyhedral_oracle_3, weft::Implicit_oracle_3, weft::Labelled_oracle_3, weft::Image_oracle_3,
+/// weft::Mesh_domain_oracle_3.
 /// \tparam Model what this archetype passes everything on to, and `is_asked_labels_first` which of the two kinds of
 ///   oracles it is; no part of the concept.
 /// \ingroup concept_classes
