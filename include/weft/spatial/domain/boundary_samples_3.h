@@ -40,9 +40,9 @@ inline double boundary_tolerance(double approximation)
 
 /// Calls `visit(point, patch, normal)` for points of the boundary of a domain that have no facet of their patch within
 /// their tolerance that looks the same way, nor any within a tenth of it: surfaces may have folds as small as that.
-/// Points are the oracle's own samples, no farther apart than `spacing`, where
-/// it has them, else seeds of its patches. Those may lie on sharp edges that nobody gave as creases, which meshes round
-/// off: four times the spacing is near enough for them.
+/// Points are the oracle's own samples, no farther apart than `spacing`, where it has them, else seeds of its patches.
+/// Those may lie on sharp edges that nobody gave as creases, which meshes round off: four times the spacing is near
+/// enough for them.
 /// \param distance a Boundary_distance_3 of facets.
 /// \param approximation called with a point and its patch, returns the approximation bound there, 0 if there is none.
 /// \returns how many points were looked at.
