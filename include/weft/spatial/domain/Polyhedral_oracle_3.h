@@ -235,7 +235,9 @@ public:
     };
     acute_edges_.visit_images(p, at.dimension == 2 ? at.index : -1, spacing, take_near);
     if (has_gaps_ && at.dimension == 2)
-      if (const auto facing = facing_point(p, project_on_patch(p, at.index).triangle, spacing)) take_near(*facing);
+      if (const auto facing =
+              facing_point(p, project_on_patch(p, at.index).triangle, (std::min)(spacing, widest_gap())))
+        take_near(*facing);
   }
 
   /// Calls `visit(crease, angle in radians)` for the creases that meet a crease at a small angle.
@@ -412,20 +414,24 @@ private:
     surface_.intersect(at(least), at(reach), hits);
     if (hits.empty()) return {};
     const std::array<double, 3> back = outward_normal(hits.front().triangle);
-    constexpr double nearly_opposite = -0.9;
+    constexpr double nearly_opposite = -0.99;
     if (out[0] * back[0] + out[1] * back[1] + out[2] * back[2] > nearly_opposite) return {};
     return hits.front().point;
+  }
+
+  /// Wider gaps aren't narrow: they take few vertices without twins, too.
+  double widest_gap() const
+  {
+    const CGAL::Bbox_3 b = bbox();
+    return 0.005 * std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
   }
 
   /// Whether there is a narrow gap that is big enough for a sample.
   void find_gaps()
   {
-    const CGAL::Bbox_3 b = bbox();
-    const double extent = std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
     constexpr std::size_t samples = 1000;
-    constexpr double reach = 0.02; // of the extent
     visit_spread_points(samples, [&](const Point& p, const auto&, double) {
-      if (!has_gaps_) has_gaps_ = facing_point(p, closest(p).triangle, reach * extent).has_value();
+      if (!has_gaps_) has_gaps_ = facing_point(p, closest(p).triangle, widest_gap()).has_value();
     });
   }
 

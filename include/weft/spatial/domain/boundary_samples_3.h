@@ -5,6 +5,8 @@
 #ifndef WEFT_SPATIAL_DOMAIN_BOUNDARY_SAMPLES_3_H
 #define WEFT_SPATIAL_DOMAIN_BOUNDARY_SAMPLES_3_H
 
+#include <weft/spatial/domain/sharp_edges_3.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,6 +42,7 @@ inline double boundary_tolerance(double approximation)
 
 /// Calls `visit(point, patch, normal)` for points of the boundary of a domain that have no facet of their patch within
 /// their tolerance that looks the same way, nor any within a tenth of it: surfaces may have folds as small as that.
+/// At a sharp edge that the mesh may cut off, a facet that looks elsewhere is enough.
 /// Points are the oracle's own samples, no farther apart than `spacing`, where it has them, else seeds of its patches.
 /// Those may lie on sharp edges that nobody gave as creases, which meshes round off: four times the spacing is near
 /// enough for them.
@@ -58,9 +61,11 @@ std::size_t visit_missed_samples(const Oracle& oracle, const Distance& distance,
     ++samples;
     double tolerance = boundary_tolerance(approximation(p, patch));
     if (!has_own) tolerance = (std::max)(tolerance, 4 * spacing);
-    const bool is_met = std::isfinite(tolerance) ? distance.has_facet_within(p, patch, 0.1 * tolerance) ||
-                                                       distance.has_facet_within(p, patch, tolerance, normal)
-                                                 : distance.has_facets(patch);
+    const bool is_met = !std::isfinite(tolerance) ? distance.has_facets(patch)
+                                                  : distance.has_facet_within(p, patch, 0.1 * tolerance) ||
+                                                        distance.has_facet_within(p, patch, tolerance, normal) ||
+                                                        (distance.has_facet_within(p, patch, tolerance) &&
+                                                         is_at_sharp_edge(oracle, p, tolerance * tolerance, patch));
     if (!is_met) visit(p, patch, normal);
   };
   if constexpr (has_own) {
