@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The piecewise smooth complex of surfaces as people have them: cut along seams, turned this way and that, with facets
+// that are degenerate, there twice or bound nothing, with walls inside and parts that touch along edges.
+// Surfaces without such faults give what `piecewise_smooth_complex()` makes of them.
+
+#ifndef WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
+#define WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
+
+#include <weft/spatial/surface/interface_complex_3.h>
+#include <weft/spatial/surface/Mend_options_3.h>
+#include <weft/spatial/surface/mend_surface_3.h>
+#include <weft/spatial/surface/merge_surfaces_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace weft {
+namespace internal {
+
+/// The options for a mended surface; given edges and vertices that are gone are dropped and noted.
+template <class K>
+Feature_options options_for_mended(const Feature_options& options, const Mended_surface_3<K>& mended,
+                                   std::vector<std::string>& notes)
+{
+  Feature_options result = options;
+  result.sharp_edges.clear();
+  result.tips_and_cusps.clear();
+  const auto sides = sorted_sides(mended.surface.triangles);
+  std::vector<std::size_t> used;
+  for (const Surface_side_3& s : sides) used.insert(used.end(), {s.low, s.high});
+  sort_unique(used);
+  for (const auto& [a, b] : options.sharp_edges) {
+    if (a >= mended.place.size() || b >= mended.place.size()) continue;
+    const std::pair<std::size_t, std::size_t> edge = std::minmax(mended.place[a], mended.place[b]);
+    const auto side = std::lower_bound(sides.begin(), sides.end(), edge, [](const Surface_side_3& s, const auto& key) {
+      return std::make_pair(s.low, s.high) < key;
+    });
+    if (side != sides.end() && side->low == edge.first && side->high == edge.second)
+      result.sharp_edges.push_back({edge.first, edge.second});
+  }
+  for (const std::size_t v : options.tips_and_cusps)
+    if (v < mended.place.size() && std::binary_search(used.begin(), used.end(), mended.place[v]))
+      result.tips_and_cusps.push_back(mended.place[v]);
+  note_lost_features(options, result, notes);
+  return result;
+}
+
+template <class K>
+Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, const Feature_options& options)
+{
+  std::vector<std::string> notes = mended.record.lines();
+  Feature_options relocated = options_for_mended(options, mended, notes);
+  Piecewise_smooth_complex_3<K> complex;
+  if (mended.is_manifold) {
+    complex = derive_complex(std::move(mended.surface), relocated);
+  } else {
+    check_self_intersections(mended.surface, sorted_sides(mended.surface.triangles));
+    relocated.tips_and_cusps.insert(relocated.tips_and_cusps.end(), mended.pinches.begin(), mended.pinches.end());
+    int subdomains = 1;
+    for (const auto& [behind, before] : mended.sides) subdomains = (std::max)({subdomains, behind, before});
+    if (subdomains > 1)
+      notes.push_back("the facets bound " + std::to_string(subdomains) + " subdomains, some of which touch");
+    complex = interface_complex_3(std::move(mended.surface), mended.sides, relocated);
+  }
+  complex.changes.insert(complex.changes.begin(), notes.begin(), notes.end());
+  return complex;
+}
+
+/// After `piecewise_smooth_complex()` has failed.
+/// \throws Domain_error with the elements of that failure, which are the caller's.
+template <class K>
+Piecewise_smooth_complex_3<K>
+mend_or_repair(const Polygon_soup_3<K>& soup, const Feature_options& options, const Mend_options_3& mending,
+               const typename Polygon_soup_3<K>::Repair& repair, const Domain_error& failure)
+{
+  std::string remains;
+  for (const bool everywhere : {false, true}) {
+    if (everywhere && mending.tolerance == 0) continue;
+    try {
+      return complex_of_mended(Surface_mender_3<K>(soup, mending).mend(everywhere), options);
+    } catch (const Domain_error& error) {
+      if (remains.empty()) remains = error.what();
+    }
+  }
+  if (repair) return derive_repaired_complex(soup, options, repair, failure);
+  if (remains == failure.what()) throw failure;
+  throw Domain_error(std::string(failure.what()) + "; mended as far as can be: " + remains, failure.vertices(),
+                     failure.elements());
+}
+
+} // namespace internal
+
+/// The piecewise smooth complex of a surface that needn't be one. If `piecewise_smooth_complex()` accepts it, the same;
+/// otherwise it is mended, and `changes` says in a line for each what was done:
+///
+/// - equal points are welded, then points at edges that don't have two facets and are within the tolerance of each
+///   other; if that doesn't suffice, all points within the tolerance;
+/// - facets that are degenerate or there twice are dropped; edges with one facet are split at points on them;
+/// - facets are turned so that they bound what lies inside, whatever their orientation;
+/// - facets with the outside, or the same region, on both sides are left out: fins and sheets;
+/// - where facets divide the inside, or parts touch in edges or vertices, each region becomes a subdomain, numbered
+///   from 1 by its first facet.
+///
+/// No point moves farther than the tolerance, and every facet is found on the mended surface or in the record.
+/// \param repair tried where mending fails; usually none.
+/// \throws Domain_error if the facets don't bound anything, have holes, or intersect other than in common edges and
+///         vertices; with the vertices and facets of the soup that keep it from being a closed surface as it is.
+/// \throws Option_error if an option is out of range.
+/// Takes O(n log n) for n facets, unless very many of its points lie side by side.
+template <class K>
+Piecewise_smooth_complex_3<K> mended_complex_3(const Polygon_soup_3<K>& soup, const Feature_options& options = {},
+                                               const Mend_options_3& mending = {},
+                                               const typename Polygon_soup_3<K>::Repair& repair = {})
+{
+  options.check();
+  mending.check();
+  try {
+    return piecewise_smooth_complex(soup, options);
+  } catch (const Domain_error& failure) {
+    return internal::mend_or_repair(soup, options, mending, repair, failure);
+  }
+}
+
+/// The same for several surfaces, each of which is mended by itself. They are merged as by
+/// `piecewise_smooth_complex()`; where one has several subdomains, the numbers of those after it are higher
+/// accordingly.
+template <class K>
+Piecewise_smooth_complex_3<K> mended_complex_3(const std::vector<Polygon_soup_3<K>>& surfaces,
+                                               const Feature_options& options = {}, const Mend_options_3& mending = {},
+                                               const typename Polygon_soup_3<K>::Repair& repair = {})
+{
+  return internal::merge_surfaces(surfaces, options, [&](const Polygon_soup_3<K>& surface) {
+    return mended_complex_3(surface, options, mending, repair);
+  });
+}
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
