@@ -9,6 +9,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/boxes/coordinates_3.h>
+#include <weft/internal/boxes/Point_tree_3.h>
 #include <weft/internal/counted.h>
 #include <weft/internal/Disjoint_parts.h>
 #include <weft/spatial/surface/Mend_options_3.h>
@@ -283,6 +284,9 @@ private:
         if (!open[i].forward) std::reverse(on_side.begin(), on_side.end());
       }
     if (splits.empty()) return false;
+    std::size_t points = 0;
+    for (const auto& on_edge : on_edges) points += on_edge.size();
+    if (points > 1000 + 10 * facets_.size()) throw Domain_error("too many points lie on edges of other facets", {}, {});
     std::vector<Facet> pieces;
     std::vector<bool> is_split(facets_.size(), false);
     for (const auto& [facet, on_sides] : splits) {
@@ -320,50 +324,33 @@ private:
     }
   }
 
-  /// The points on each edge within the tolerance, from its lower vertex on. Found among the vertices sorted along the
-  /// longest side of the surface's box.
+  /// The points on each edge within the tolerance, from its lower vertex on.
   std::vector<std::vector<std::size_t>> points_on(const std::vector<Surface_side_3>& edges) const
   {
     std::vector<bool> is_used(points_.size(), false);
-    Box_3 box;
+    std::vector<std::size_t> used;
+    double largest = 0;
     for (const Facet& f : facets_)
       for (const std::size_t v : f.corners) {
+        if (!is_used[v]) used.push_back(v);
         is_used[v] = true;
-        box.add(xyz_[v][0], xyz_[v][1], xyz_[v][2]);
+        largest = (std::max)(largest, norm(xyz_[v]));
       }
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-      if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
-    std::vector<std::pair<double, std::size_t>> sorted;
-    for (std::size_t v = 0; v < is_used.size(); ++v)
-      if (is_used[v]) sorted.emplace_back(xyz_[v][axis], v);
-    std::sort(sorted.begin(), sorted.end());
-    const double rounding = 1e-15 * norm({{(std::max)(std::abs(box.low[0]), std::abs(box.high[0])),
-                                           (std::max)(std::abs(box.low[1]), std::abs(box.high[1])),
-                                           (std::max)(std::abs(box.low[2]), std::abs(box.high[2]))}});
-    const double tolerance = (std::max)(tolerance_, rounding);
+    const Point_tree_3 tree(xyz_, std::move(used));
+    const double tolerance = (std::max)(tolerance_, 1e-15 * largest); // rounding of points on edges
     std::vector<std::vector<std::size_t>> result;
     for (const Surface_side_3& edge : edges) {
       const Xyz_3 &p = xyz_[edge.low], &q = xyz_[edge.high], d = minus(q, p);
+      const auto& corners = facets_[edge.triangle].corners;
       const double length = norm(d);
-      Xyz_3 low, high;
-      for (std::size_t k = 0; k < 3; ++k)
-        low[k] = (std::min)(p[k], q[k]) - tolerance, high[k] = (std::max)(p[k], q[k]) + tolerance;
       std::vector<std::pair<double, std::size_t>> on_edge;
-      const auto end = std::upper_bound(sorted.begin(), sorted.end(), std::make_pair(high[axis], points_.size()));
-      for (auto at = std::lower_bound(sorted.begin(), sorted.end(), std::make_pair(low[axis], std::size_t(0)));
-           at != end; ++at) {
-        const Xyz_3& x = xyz_[at->second];
-        bool is_in_box = at->second != edge.low && at->second != edge.high;
-        for (std::size_t k = 0; is_in_box && k < 3; ++k) is_in_box = x[k] >= low[k] && x[k] <= high[k];
-        if (!is_in_box) continue;
-        const Xyz_3 e = minus(x, p);
+      tree.visit_near_segment(p, q, 1.01 * tolerance, [&](std::size_t v) {
+        const Xyz_3 e = minus(xyz_[v], p);
         const double along = dot_product(e, d) / length;
         if (along > tolerance && along < length - tolerance && norm(cross_product(e, d)) <= tolerance * length &&
-            std::find(facets_[edge.triangle].corners.begin(), facets_[edge.triangle].corners.end(), at->second) ==
-                facets_[edge.triangle].corners.end())
-          on_edge.emplace_back(along, at->second);
-      }
+            std::find(corners.begin(), corners.end(), v) == corners.end())
+          on_edge.emplace_back(along, v);
+      });
       std::sort(on_edge.begin(), on_edge.end());
       result.emplace_back();
       for (const auto& [along, v] : on_edge) result.back().push_back(v);
