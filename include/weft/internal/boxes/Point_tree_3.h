@@ -20,7 +20,7 @@ class Point_tree_3
 public:
   /// \param points outlive the tree. \param items indices of those in it.
   Point_tree_3(const std::vector<Xyz_3>& points, std::vector<std::size_t> items)
-      : points_(points), items_(std::move(items)), axes_(items_.size(), 0)
+      : points_(points), items_(std::move(items)), splits_(items_.size())
   {
     build(0, items_.size());
   }
@@ -53,7 +53,7 @@ private:
                      items_.begin() + static_cast<std::ptrdiff_t>(middle),
                      items_.begin() + static_cast<std::ptrdiff_t>(end),
                      [&](std::size_t a, std::size_t b) { return points_[a][axis] < points_[b][axis]; });
-    axes_[middle] = static_cast<unsigned char>(axis);
+    splits_[middle] = {axis, points_[items_[middle]][axis]};
     build(begin, middle);
     build(middle, end);
   }
@@ -66,8 +66,8 @@ private:
       for (std::size_t i = begin; i < end; ++i) visit(items_[i]);
       return;
     }
-    const std::size_t middle = begin + (end - begin) / 2, axis = axes_[middle];
-    const double split = points_[items_[middle]][axis];
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto& [axis, split] = splits_[middle];
     Xyz_3 a = p, b = q;
     if (clip(a, b, axis, split + distance, 1)) visit_near_segment(begin, middle, a, b, distance, visit);
     a = p, b = q;
@@ -89,7 +89,7 @@ private:
 
   const std::vector<Xyz_3>& points_;
   std::vector<std::size_t> items_;
-  std::vector<unsigned char> axes_; ///< of each range, at its middle
+  std::vector<std::pair<std::size_t, double>> splits_; ///< axis and coordinate of each range, at its middle
 };
 
 } // namespace weft::internal

@@ -46,12 +46,41 @@ public:
   /// region of the domain. The two are equal where a triangle bounds nothing. Regions that have the outside beside them
   /// belong to the domain. Others do, unless the triangles are oriented throughout such that they wind around nothing;
   /// and so on in the regions outside. What lies in a region of the domain without touching its boundary is a cavity.
-  std::vector<std::pair<int, int>> sides()
+  /// \param is_union whether what is wound around more than once is part of what it overlaps, and what is wound around
+  ///        the other way is outside.
+  std::vector<std::pair<int, int>> sides(bool is_union = false)
   {
     collect_components();
     find_windings();
-    nest();
-    return number_sides();
+    nest(is_union);
+    return number_sides(is_union);
+  }
+
+  /// Which triangles have to be turned so that each component looks outwards, wherever it lies. Triangles between
+  /// regions within it are turned with the others, if their orientations fit together.
+  std::vector<bool> looking_inwards()
+  {
+    collect_components();
+    find_windings();
+    std::vector<double> outwards(components_.size(), 0); // area that looks outwards, less what looks inwards
+    const auto sign = [this](std::size_t t) {            // 0 between regions within
+      const std::size_t outer = components_[regions_[region_of(2 * t)].component].outer;
+      return region_of(2 * t + 1) == outer ? 1 : region_of(2 * t) == outer ? -1 : 0;
+    };
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      if (bounds_nothing(t)) continue;
+      const auto& [a, b, c] = surface_.triangles[t];
+      const Xyz_3 origin = xyz(surface_.points[a]);
+      outwards[regions_[region_of(2 * t)].component] +=
+          sign(t) * norm(cross_product(minus(xyz(surface_.points[b]), origin), minus(xyz(surface_.points[c]), origin)));
+    }
+    std::vector<bool> is_inwards(surface_.triangles.size(), false);
+    for (std::size_t t = 0; t < is_inwards.size(); ++t) {
+      if (bounds_nothing(t)) continue;
+      const std::size_t component = regions_[region_of(2 * t)].component;
+      is_inwards[t] = sign(t) < 0 || (sign(t) == 0 && components_[component].is_consistent && outwards[component] < 0);
+    }
+    return is_inwards;
   }
 
 private:
@@ -211,7 +240,7 @@ private:
   }
 
   /// Which region each component lies in, and what of it belongs to the domain.
-  void nest()
+  void nest(bool is_union)
   {
     std::vector<std::size_t> order(components_.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
@@ -233,8 +262,10 @@ private:
           }
       const bool is_cavity = component.has_parent && regions_[component.parent].is_domain;
       for (const std::size_t r : component.regions)
-        regions_[r].is_domain =
-            r == component.outer ? is_cavity : !is_cavity && (!component.is_consistent || regions_[r].winding != 0);
+        regions_[r].is_domain = r == component.outer
+                                    ? is_cavity
+                                    : !is_cavity && (!component.is_consistent ||
+                                                     (is_union ? regions_[r].winding > 0 : regions_[r].winding != 0));
     }
   }
 
@@ -245,14 +276,22 @@ private:
     return region == component.outer && component.has_parent ? standing_for(component.parent) : region;
   }
 
-  std::vector<std::pair<int, int>> number_sides()
+  std::vector<std::pair<int, int>> number_sides(bool is_union)
   {
+    Disjoint_parts united(regions_.size());
+    for (const auto& [pair, area] : areas_)
+      if (is_union && components_[regions_[pair.first].component].is_consistent && area.jump() != 0 &&
+          regions_[pair.first].is_domain && regions_[pair.second].is_domain &&
+          pair.first != components_[regions_[pair.first].component].outer &&
+          pair.second != components_[regions_[pair.second].component].outer)
+        united.unite(pair.first, pair.second);
+
     std::vector<std::pair<int, int>> sides(surface_.triangles.size(), {0, 0});
     std::map<std::size_t, int> label;
     const auto label_of = [&](std::size_t side) {
       const std::size_t region = region_of(side);
       if (!regions_[region].is_domain) return 0;
-      return label.try_emplace(standing_for(region), static_cast<int>(label.size()) + 1).first->second;
+      return label.try_emplace(united.find(standing_for(region)), static_cast<int>(label.size()) + 1).first->second;
     };
     for (std::size_t t = 0; t < sides.size(); ++t) {
       if (bounds_nothing(t)) continue;

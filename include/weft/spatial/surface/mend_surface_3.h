@@ -35,7 +35,7 @@ namespace weft::internal {
 struct Mending_record_3
 {
   std::size_t equal_points = 0, near_points = 0, degenerate = 0, duplicate = 0, split = 0, turned = 0, left_out = 0,
-              within_void = 0;
+              within_void = 0, within_domain = 0, cut = 0;
   double farthest_weld = 0, area = 0, area_left_out = 0;
 
   /// One line for each thing, for people.
@@ -51,11 +51,13 @@ struct Mending_record_3
     note(degenerate, "degenerate facet was dropped", "degenerate facets were dropped");
     note(duplicate, "facet that is there twice was dropped", "facets that are there twice were dropped");
     note(split, "facet was split at points on its edges", "facets were split at points on their edges");
+    note(cut, "pair of facets that intersect was cut", "pairs of facets that intersect were cut");
     note(turned, "facet was turned over", "facets were turned over");
     note(left_out, "facet was left out, a fin or sheet that bounds nothing",
          "facets were left out, fins or sheets that bound nothing",
          ", " + percent(area_left_out / area) + " of the area");
-    note(within_void, "facet between cavities was left out", "facets between cavities were left out");
+    note(within_void, "facet with the outside on both sides was left out", "facets with the outside on both sides were left out");
+    note(within_domain, "facet within another part was left out", "facets within other parts were left out");
     return lines;
   }
 
@@ -110,7 +112,31 @@ public:
   /// \param everywhere whether to weld all points that are near to each other and to drop all facets that are flatter
   ///        than the tolerance, not only at edges that don't have two facets.
   /// \throws Domain_error if nothing, or more than is allowed, would have to be left out.
-  Mended_surface_3<K> mend(bool everywhere)
+  /// \param is_union see `Surface_regions_3::sides()`.
+  Mended_surface_3<K> mend(bool everywhere, bool is_union = false)
+  {
+    clean(everywhere);
+    return find_domain(is_union);
+  }
+
+  /// Mends what doesn't depend on what the facets bound, and turns each connected part outwards.
+  Triangle_surface_3<K> cleaned()
+  {
+    clean(false);
+    Triangle_surface_3<K> surface{points_, triangles(), {}};
+    std::vector<int> net;
+    for (const Facet& f : facets_) {
+      surface.origins.push_back(f.origin);
+      net.push_back((std::max)(-1, (std::min)(1, f.net)));
+    }
+    const std::vector<bool> is_inwards = Surface_regions_3<K>(surface, net).looking_inwards();
+    for (std::size_t t = 0; t < is_inwards.size(); ++t)
+      if (is_inwards[t]) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+    return surface;
+  }
+
+private:
+  void clean(bool everywhere)
   {
     drop_degenerate(everywhere ? tolerance_ : 0);
     drop_duplicates();
@@ -120,10 +146,8 @@ public:
       drop_degenerate(0);
       drop_duplicates();
     }
-    return find_domain();
   }
 
-private:
   struct Facet
   {
     Corners corners;
@@ -360,7 +384,7 @@ private:
 
   // ---- The domain
 
-  Mended_surface_3<K> find_domain()
+  Mended_surface_3<K> find_domain(bool is_union)
   {
     Triangle_surface_3<K> all{points_, triangles(), {}};
     std::vector<int> net;
@@ -375,14 +399,14 @@ private:
       }
     check_left_out(all, left_out);
     record_.left_out = left_out.size();
-    const auto sides = regions.sides();
+    const auto sides = regions.sides(is_union);
     Mended_surface_3<K> result;
     double kept = record_.area_left_out;
     for (std::size_t t = 0; t < facets_.size(); ++t) {
       auto [behind, before] = sides[t];
       if (behind == before) {
         if (behind == 0 && regions.bounds_nothing(t)) continue;
-        ++record_.within_void;
+        ++(behind == 0 ? record_.within_void : record_.within_domain);
         kept += area(facets_[t].corners);
         continue;
       }

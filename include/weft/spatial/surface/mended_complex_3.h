@@ -12,6 +12,7 @@
 #include <weft/spatial/surface/mend_surface_3.h>
 #include <weft/spatial/surface/merge_surfaces_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
+#include <weft/spatial/surface/resolve_intersections_3.h>
 
 #include <algorithm>
 #include <array>
@@ -72,6 +73,65 @@ Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, cons
   return complex;
 }
 
+/// The options without what is given by number.
+inline Feature_options by_angle_only(Feature_options options)
+{
+  options.sharp_edges.clear();
+  options.tips_and_cusps.clear();
+  return options;
+}
+
+/// Surfaces whose facets are cut where they meet, within each and between them. \throws Domain_error.
+template <class K>
+std::pair<std::vector<Polygon_soup_3<K>>, std::size_t> resolve(const std::vector<Polygon_soup_3<K>>& soups,
+                                                               const Mend_options_3& mending)
+{
+  Triangle_surface_3<K> all;
+  for (std::size_t s = 0; s < soups.size(); ++s) {
+    const Triangle_surface_3<K> surface = Surface_mender_3<K>(soups[s], mending).cleaned();
+    for (const auto& [a, b, c] : surface.triangles)
+      all.triangles.push_back({a + all.points.size(), b + all.points.size(), c + all.points.size()});
+    all.points.insert(all.points.end(), surface.points.begin(), surface.points.end());
+    all.origins.resize(all.triangles.size(), s);
+  }
+  const std::size_t cut = Intersection_resolver_3<K>(all).resolve();
+  std::vector<Polygon_soup_3<K>> result(soups.size());
+  for (auto& soup : result) soup.points = all.points;
+  for (std::size_t t = 0; t < all.triangles.size(); ++t) {
+    const auto& [a, b, c] = all.triangles[t];
+    result[all.origins[t]].polygons.push_back({a, b, c});
+  }
+  return {std::move(result), cut};
+}
+
+/// The complex of a surface of which `resolve()` has made another.
+template <class K>
+Piecewise_smooth_complex_3<K> complex_of_resolved(const Polygon_soup_3<K>& soup, std::size_t cut,
+                                                  const Feature_options& options, const Mend_options_3& mending)
+{
+  std::string what;
+  for (const bool everywhere : {false, true}) try {
+      auto mended = Surface_mender_3<K>(soup, mending).mend(everywhere, true);
+      mended.record.equal_points = 0; // copies in the pieces
+      mended.record.duplicate = 0;
+      mended.record.cut = cut;
+      return complex_of_mended(std::move(mended), options);
+    } catch (const Domain_error& error) {
+      if (what.empty()) what = error.what();
+      if (mending.tolerance == 0) break;
+    }
+  throw Domain_error(what, {}, {});
+}
+
+template <class K>
+Piecewise_smooth_complex_3<K> resolved_complex(const Polygon_soup_3<K>& soup, const Feature_options& options,
+                                               const Mend_options_3& mending)
+{
+  const auto [soups, cut] = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending);
+  if (cut == 0) throw Domain_error("no facets intersect", {}, {});
+  return complex_of_resolved(soups[0], cut, by_angle_only(options), mending);
+}
+
 /// After `piecewise_smooth_complex()` has failed.
 /// \throws Domain_error with the elements of that failure, which are the caller's.
 template <class K>
@@ -80,18 +140,48 @@ mend_or_repair(const Polygon_soup_3<K>& soup, const Feature_options& options, co
                const typename Polygon_soup_3<K>::Repair& repair, const Domain_error& failure)
 {
   std::string remains;
-  for (const bool everywhere : {false, true}) {
-    if (everywhere && mending.tolerance == 0) continue;
+  const auto attempt = [&](const auto& complex) {
     try {
-      return complex_of_mended(Surface_mender_3<K>(soup, mending).mend(everywhere), options);
+      return complex();
     } catch (const Domain_error& error) {
       if (remains.empty()) remains = error.what();
     }
+    return Piecewise_smooth_complex_3<K>();
+  };
+  for (const bool everywhere : {false, true}) {
+    if (everywhere && mending.tolerance == 0) continue;
+    auto complex =
+        attempt([&] { return complex_of_mended(Surface_mender_3<K>(soup, mending).mend(everywhere), options); });
+    if (!complex.triangles.empty()) return complex;
   }
+  auto resolved = attempt([&] { return resolved_complex(soup, options, mending); });
+  if (!resolved.triangles.empty()) return resolved;
   if (repair) return derive_repaired_complex(soup, options, repair, failure);
   if (remains == failure.what()) throw failure;
   throw Domain_error(std::string(failure.what()) + "; mended as far as can be: " + remains, failure.vertices(),
                      failure.elements());
+}
+
+/// Several surfaces, cut where they meet, after merging them has failed. \throws Domain_error: that failure.
+template <class K>
+Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3<K>>& surfaces,
+                                                const Feature_options& options, const Mend_options_3& mending,
+                                                const Domain_error& failure)
+{
+  try {
+    options.check();
+    mending.check();
+    const auto [soups, cut] = resolve(surfaces, mending);
+    if (cut == 0) throw failure;
+    auto complex = merge_surfaces(soups, options, [&](const Polygon_soup_3<K>& surface) {
+      return complex_of_resolved(surface, 0, by_angle_only(options), mending);
+    });
+    complex.changes.insert(complex.changes.begin(), counted(cut, "pair of facets that intersect or touch was cut",
+                                                            "pairs of facets that intersect or touch were cut"));
+    return complex;
+  } catch (const Domain_error&) {
+    throw failure;
+  }
 }
 
 } // namespace internal
@@ -135,9 +225,15 @@ Piecewise_smooth_complex_3<K> mended_complex_3(const std::vector<Polygon_soup_3<
                                                const Feature_options& options = {}, const Mend_options_3& mending = {},
                                                const typename Polygon_soup_3<K>::Repair& repair = {})
 {
-  return internal::merge_surfaces(surfaces, options, [&](const Polygon_soup_3<K>& surface) {
+  const auto complex_of = [&](const Polygon_soup_3<K>& surface) {
     return mended_complex_3(surface, options, mending, repair);
-  });
+  };
+  if (surfaces.size() < 2) return internal::merge_surfaces(surfaces, options, complex_of);
+  try {
+    return internal::merge_surfaces(surfaces, options, complex_of);
+  } catch (const Domain_error& failure) {
+    return internal::resolve_and_merge(surfaces, options, mending, failure);
+  }
 }
 
 } // namespace weft
