@@ -12,6 +12,7 @@
 #include <weft/internal/boxes/Point_tree_3.h>
 #include <weft/internal/counted.h>
 #include <weft/internal/Disjoint_parts.h>
+#include <weft/spatial/surface/derive_features_3.h>
 #include <weft/spatial/surface/Mend_options_3.h>
 #include <weft/spatial/surface/Polygon_soup_3.h>
 #include <weft/spatial/surface/Surface_regions_3.h>
@@ -56,7 +57,8 @@ struct Mending_record_3
     note(left_out, "facet was left out, a fin or sheet that bounds nothing",
          "facets were left out, fins or sheets that bound nothing",
          ", " + percent(area_left_out / area) + " of the area");
-    note(within_void, "facet with the outside on both sides was left out", "facets with the outside on both sides were left out");
+    note(within_void, "facet with the outside on both sides was left out",
+         "facets with the outside on both sides were left out");
     note(within_domain, "facet within another part was left out", "facets within other parts were left out");
     return lines;
   }
@@ -75,10 +77,11 @@ template <class K>
 struct Mended_surface_3
 {
   Triangle_surface_3<K> surface;
-  std::vector<std::pair<int, int>> sides; ///< the subdomains behind and before each triangle
-  std::vector<std::size_t> place;         ///< which point each of the caller's is now
-  std::vector<std::size_t> pinches;       ///< vertices that are in several fans of triangles
-  bool is_manifold = false;               ///< two triangles meet in each edge, and the outside is before all of them
+  std::vector<std::pair<int, int>> sides;         ///< the subdomains behind and before each triangle
+  std::vector<std::size_t> place;                 ///< which point each of the caller's is now
+  std::vector<std::array<std::size_t, 2>> curves; ///< edges where parts that were united cross, unless flat
+  std::vector<std::size_t> pinches;               ///< vertices that are in several fans of triangles
+  bool is_manifold = false; ///< two triangles meet in each edge, and the outside is before all of them
   Mending_record_3 record;
 };
 
@@ -120,7 +123,7 @@ public:
   }
 
   /// Mends what doesn't depend on what the facets bound, and turns each connected part outwards.
-  Triangle_surface_3<K> cleaned()
+  Triangle_surface_3<K> cleaned(std::vector<bool>& bounds_nothing)
   {
     clean(false);
     Triangle_surface_3<K> surface{points_, triangles(), {}};
@@ -129,7 +132,9 @@ public:
       surface.origins.push_back(f.origin);
       net.push_back((std::max)(-1, (std::min)(1, f.net)));
     }
-    const std::vector<bool> is_inwards = Surface_regions_3<K>(surface, net).looking_inwards();
+    Surface_regions_3<K> regions(surface, net);
+    const std::vector<bool> is_inwards = regions.looking_inwards();
+    for (std::size_t t = 0; t < is_inwards.size(); ++t) bounds_nothing.push_back(regions.bounds_nothing(t));
     for (std::size_t t = 0; t < is_inwards.size(); ++t)
       if (is_inwards[t]) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
     return surface;
@@ -425,11 +430,36 @@ private:
     // Each point of the surface moves by the tolerance at most.
     if (!(std::abs(kept - check_area_) <= tolerance_ * perimeters_ + 1e-9 * check_area_))
       throw Domain_error("facets would get lost", {}, {});
+    if (is_union) result.curves = crossing_curves(all, regions, result.surface);
     result.surface.points = std::move(points_);
     result.place = std::move(place_);
     describe(result);
     result.record = record_;
     return result;
+  }
+
+  /// Edges that had more than two facets and have two that aren't level.
+  std::vector<std::array<std::size_t, 2>> crossing_curves(const Triangle_surface_3<K>& all,
+                                                          Surface_regions_3<K>& regions,
+                                                          const Triangle_surface_3<K>& result) const
+  {
+    constexpr double flat = 5; // degrees
+    std::vector<std::array<std::size_t, 2>> crowded, curves;
+    for_each_edge(sorted_sides(all.triangles), [&](auto first, auto last) {
+      const auto n = std::count_if(first, last, [&](const auto& s) { return !regions.bounds_nothing(s.triangle); });
+      if (n > 2) crowded.push_back({first->low, first->high});
+    });
+    const auto normal = [&](std::size_t t) {
+      const auto& [a, b, c] = result.triangles[t];
+      return unit_facet_normal(points_[a], points_[b], points_[c]);
+    };
+    for_each_edge(sorted_sides(result.triangles), [&](auto first, auto last) {
+      const std::array<std::size_t, 2> edge = {first->low, first->high};
+      if (last - first == 2 && std::binary_search(crowded.begin(), crowded.end(), edge) &&
+          angle_between(normal(first->triangle), normal((first + 1)->triangle)) > flat)
+        curves.push_back(edge);
+    });
+    return curves;
   }
 
   /// \throws Domain_error if facets that bound nothing are too many or look like a body with a hole.

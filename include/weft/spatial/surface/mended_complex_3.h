@@ -7,6 +7,7 @@
 #ifndef WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
 #define WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
 
+#include <weft/spatial/surface/has_odd_parts_3.h>
 #include <weft/spatial/surface/interface_complex_3.h>
 #include <weft/spatial/surface/Mend_options_3.h>
 #include <weft/spatial/surface/mend_surface_3.h>
@@ -57,6 +58,7 @@ Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, cons
 {
   std::vector<std::string> notes = mended.record.lines();
   Feature_options relocated = options_for_mended(options, mended, notes);
+  relocated.sharp_edges.insert(relocated.sharp_edges.end(), mended.curves.begin(), mended.curves.end());
   Piecewise_smooth_complex_3<K> complex;
   if (mended.is_manifold) {
     complex = derive_complex(std::move(mended.surface), relocated);
@@ -81,37 +83,52 @@ inline Feature_options by_angle_only(Feature_options options)
   return options;
 }
 
-/// Surfaces whose facets are cut where they meet, within each and between them. \throws Domain_error.
+/// A surface whose facets are cut where they meet.
 template <class K>
-std::pair<std::vector<Polygon_soup_3<K>>, std::size_t> resolve(const std::vector<Polygon_soup_3<K>>& soups,
-                                                               const Mend_options_3& mending)
+struct Resolved_surface_3
 {
+  Triangle_surface_3<K> given; ///< before, without what bounds nothing
+  Polygon_soup_3<K> soup;
+};
+
+/// Cuts facets where they meet, within each surface and between them; and how many pairs. \throws Domain_error.
+template <class K>
+std::pair<std::vector<Resolved_surface_3<K>>, std::size_t> resolve(const std::vector<Polygon_soup_3<K>>& soups,
+                                                                   const Mend_options_3& mending)
+{
+  std::vector<Resolved_surface_3<K>> result;
   Triangle_surface_3<K> all;
   for (std::size_t s = 0; s < soups.size(); ++s) {
-    const Triangle_surface_3<K> surface = Surface_mender_3<K>(soups[s], mending).cleaned();
+    std::vector<bool> bounds_nothing;
+    const Triangle_surface_3<K> surface = Surface_mender_3<K>(soups[s], mending).cleaned(bounds_nothing);
+    result.emplace_back();
+    result.back().given.points = surface.points;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      if (!bounds_nothing[t]) result.back().given.triangles.push_back(surface.triangles[t]);
     for (const auto& [a, b, c] : surface.triangles)
       all.triangles.push_back({a + all.points.size(), b + all.points.size(), c + all.points.size()});
     all.points.insert(all.points.end(), surface.points.begin(), surface.points.end());
     all.origins.resize(all.triangles.size(), s);
   }
   const std::size_t cut = Intersection_resolver_3<K>(all).resolve();
-  std::vector<Polygon_soup_3<K>> result(soups.size());
-  for (auto& soup : result) soup.points = all.points;
+  for (auto& surface : result) surface.soup.points = all.points;
   for (std::size_t t = 0; t < all.triangles.size(); ++t) {
     const auto& [a, b, c] = all.triangles[t];
-    result[all.origins[t]].polygons.push_back({a, b, c});
+    result[all.origins[t]].soup.polygons.push_back({a, b, c});
   }
   return {std::move(result), cut};
 }
 
 /// The complex of a surface of which `resolve()` has made another.
 template <class K>
-Piecewise_smooth_complex_3<K> complex_of_resolved(const Polygon_soup_3<K>& soup, std::size_t cut,
+Piecewise_smooth_complex_3<K> complex_of_resolved(const Resolved_surface_3<K>& resolved, std::size_t cut,
                                                   const Feature_options& options, const Mend_options_3& mending)
 {
   std::string what;
   for (const bool everywhere : {false, true}) try {
-      auto mended = Surface_mender_3<K>(soup, mending).mend(everywhere, true);
+      auto mended = Surface_mender_3<K>(resolved.soup, mending).mend(everywhere, true);
+      if (!has_odd_parts(resolved.given, mended.surface, mended.sides))
+        throw Domain_error("parts would get lost where facets meet", {}, {});
       mended.record.equal_points = 0; // copies in the pieces
       mended.record.duplicate = 0;
       mended.record.cut = cut;
@@ -127,9 +144,9 @@ template <class K>
 Piecewise_smooth_complex_3<K> resolved_complex(const Polygon_soup_3<K>& soup, const Feature_options& options,
                                                const Mend_options_3& mending)
 {
-  const auto [soups, cut] = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending);
+  const auto [resolved, cut] = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending);
   if (cut == 0) throw Domain_error("no facets intersect", {}, {});
-  return complex_of_resolved(soups[0], cut, by_angle_only(options), mending);
+  return complex_of_resolved(resolved[0], cut, by_angle_only(options), mending);
 }
 
 /// After `piecewise_smooth_complex()` has failed.
@@ -171,9 +188,9 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
   try {
     options.check();
     mending.check();
-    const auto [soups, cut] = resolve(surfaces, mending);
+    const auto [resolved, cut] = resolve(surfaces, mending);
     if (cut == 0) throw failure;
-    auto complex = merge_surfaces(soups, options, [&](const Polygon_soup_3<K>& surface) {
+    auto complex = merge_surfaces(resolved, options, [&](const Resolved_surface_3<K>& surface) {
       return complex_of_resolved(surface, 0, by_angle_only(options), mending);
     });
     complex.changes.insert(complex.changes.begin(), counted(cut, "pair of facets that intersect or touch was cut",
@@ -194,13 +211,15 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
 /// - facets that are degenerate or there twice are dropped; edges with one facet are split at points on them;
 /// - facets are turned so that they bound what lies inside, whatever their orientation;
 /// - facets with the outside, or the same region, on both sides are left out: fins and sheets;
-/// - where facets divide the inside, or parts touch in edges or vertices, each region becomes a subdomain, numbered
-///   from 1 by its first facet.
+/// - facets that intersect or overlap are cut where they meet. Parts that overlap are united, and the curves in which
+///   they cross are sharp edges from 5 degrees on;
+/// - where facets divide the inside, or parts touch in facets, edges or vertices, each region becomes a subdomain,
+///   numbered from 1 by its first facet.
 ///
-/// No point moves farther than the tolerance, and every facet is found on the mended surface or in the record.
+/// No point moves farther than the tolerance, and every facet is found on the mended surface or in `changes`.
 /// \param repair tried where mending fails; usually none.
-/// \throws Domain_error if the facets don't bound anything, have holes, or intersect other than in common edges and
-///         vertices; with the vertices and facets of the soup that keep it from being a closed surface as it is.
+/// \throws Domain_error if the facets don't bound anything, have holes, or still meet when they have been cut; with the
+///         vertices and facets of the soup that keep it from being a closed surface as it is.
 /// \throws Option_error if an option is out of range.
 /// Takes O(n log n) for n facets, unless very many of its points lie side by side.
 template <class K>

@@ -178,14 +178,15 @@ private:
   std::vector<Facet> facets_;
 };
 
-/// The complex of several surfaces, of which `complex_of(soup)` makes those of each.
-template <class K, class Complex_of>
-Piecewise_smooth_complex_3<K> merge_surfaces(const std::vector<Polygon_soup_3<K>>& surfaces,
-                                             const Feature_options& options, const Complex_of& complex_of)
+/// The complex of several surfaces, of which `complex_of(surface)` makes those of each.
+template <class Surface, class Complex_of>
+auto merge_surfaces(const std::vector<Surface>& surfaces, const Feature_options& options, const Complex_of& complex_of)
 {
+  using Complex = decltype(complex_of(surfaces.front()));
+  using K = typename Complex::Kernel;
   if (surfaces.empty()) throw Domain_error("there are no surfaces", {}, {});
   if (surfaces.size() == 1) return complex_of(surfaces.front());
-  std::vector<Piecewise_smooth_complex_3<K>> complexes;
+  std::vector<Complex> complexes;
   std::vector<std::string> changes;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     const std::string name = "surface " + std::to_string(s) + ": ";

@@ -12,6 +12,7 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_face_base_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 #include <CGAL/Projection_traits_3.h>
@@ -108,7 +109,8 @@ private:
     using Vertex_base = CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Traits>;
     using Structure =
         CGAL::Triangulation_data_structure_2<Vertex_base, CGAL::Constrained_triangulation_face_base_2<Traits>>;
-    using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Traits, Structure, CGAL::Exact_intersections_tag>;
+    using Triangulation = CGAL::Constrained_triangulation_plus_2<
+        CGAL::Constrained_Delaunay_triangulation_2<Traits, Structure, CGAL::Exact_intersections_tag>>;
 
     const auto corners = surface_.triangles[t];
     const Exact_triangle triangle = exact_triangle(t);
