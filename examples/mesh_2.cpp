@@ -89,19 +89,10 @@ void add_options(command_line::Options& options, Request& request)
 
 void read_sizes(Request& request)
 {
-  bool has_general_size = false;
-  for (const std::string& text : request.size_texts) {
-    const std::size_t colon = text.find(':');
-    if (colon == std::string::npos) {
-      if (std::exchange(has_general_size, true)) throw Error("--size is given twice");
-      request.sizes.size = command_line::read_length("--size", text);
-    } else {
-      const int mark = command_line::read_integer("--size", text.substr(0, colon));
-      if (!request.sizes.size_of_mark.emplace(mark, command_line::read_length("--size", text.substr(colon + 1))).second)
-        throw Error("--size is given twice for the mark " + std::to_string(mark));
-    }
+  command_line::read_lengths("--size", "mark", request.size_texts, false, request.sizes.size,
+                             request.sizes.size_of_mark);
+  for (const std::string& text : request.size_texts)
     request.size_text += (request.size_text.empty() ? "size " : " ") + text;
-  }
 }
 
 /// What options mean together.

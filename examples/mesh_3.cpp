@@ -11,6 +11,7 @@
 #include "programs/mesh_3/domain.h"
 
 #include <weft/errors.h>
+#include <weft/internal/counted.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 
 #include <algorithm>
@@ -18,8 +19,10 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -34,16 +37,19 @@ using mesh_3_program::Result;
 // ---- What is asked for
 
 const std::string before_options =
-    "usage: mesh_3 INPUT... [--size S] [--approximation E] [--facet-shape R] [--cell-shape R] [--sharp-angle DEG]\n"
-    "              [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb] [--strict]\n"
-    "              [--weld PART] [--repair] [--output FILE]... [--report FILE.json] [--histogram FILE.svg]\n"
-    "              [--seed N] [--threads N] [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
+    "usage: mesh_3 INPUT... [--size [LABEL:]S]... [--approximation [LABEL:]E]... [--facet-shape R] [--cell-shape R]\n"
+    "              [--sharp-angle DEG] [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb]\n"
+    "              [--strict] [--weld PART] [--repair] [--iso VALUE] [--inside above|below] [--labels]\n"
+    "              [--name LABEL:NAME]...\n"
+    "              [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
+    "              [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
     "Fills the domain that a closed surface bounds with tetrahedra. INPUT is an .off, .obj, .stl or .ply file. "
     "Several\nsurfaces bound a subdomain each, numbered from 1; what lies in several of them belongs to the last. Or "
-    "INPUT is a\nlabelled image, .inr, .inr.gz or .hdr: each value but 0 is a subdomain. Lengths are in the input's "
+    "INPUT is an\nimage, .inr, .inr.gz or .hdr: of labels, of which each but 0 is a subdomain, or with --iso of grey "
+    "values. Lengths are in the input's "
     "units, or with a\ntrailing % in parts of its bounding box diagonal.\n\n"
-    "A surface with seams, facets turned over, there twice or degenerate, fins or walls inside is mended; notes say "
-    "what was\ndone. Walls and edges where parts touch divide it into subdomains.\n";
+    "A surface with seams, facets turned over, there twice, degenerate or crossing, fins or walls inside is mended; "
+    "notes say\nwhat was done. Walls and edges where parts touch divide it into subdomains.\n";
 
 const std::string after_options =
     "Exit status: 0 if the mesh meets all criteria; 1 for bad usage or bad input, when no file is written; 2 if the "
@@ -53,7 +59,11 @@ const std::string after_options =
 struct Request : command_line::Files
 {
   Length size{5, true}, approximation{0.1, true};
-  mesh_3_program::Bounds bounds; ///< without lengths, which need the input
+  std::vector<std::string> size_texts, approximation_texts, name_texts; ///< as given
+  std::map<int, Length> size_of, approximation_of;                      ///< instead, by label
+  mesh_3_program::Bounds bounds;                                        ///< without lengths, which need the input
+  mesh_3_program::Image_options image;
+  double iso = 0;
   weft::Feature_options features;
   weft::Mesh_options_3 options;
   double min_dihedral = 0;
@@ -66,10 +76,12 @@ void add_options(command_line::Options& options, Request& request)
   constexpr double most = std::numeric_limits<double>::max();
   auto& bounds = request.bounds;
   options.operands(request.inputs);
-  options.length("--size", "S", false, request.size, "longest edge (default 5%)");
-  options.length("--approximation", "E", true, request.approximation,
-                 "distance of facets and crease edges to the surface, 0 for any (default 0.1%; in images at least\n0.6 "
-                 "voxels)");
+  options.texts("--size", "[LABEL:]S", request.size_texts,
+                "longest edge (default 5%); after a label, in subdomains with that label only, as in\n2:0.1. Labels "
+                "are an image's values, or the numbers of surfaces");
+  options.texts("--approximation", "[LABEL:]E", request.approximation_texts,
+                "distance of facets and crease edges to the surface, 0 for any (default 0.1%; in images at least\n0.6 "
+                "voxels); after a label, at the boundary of that subdomain only");
   options.number("--facet-shape", "R", 0, most, bounds.facet_shape,
                  "largest circumradius / shortest edge of a boundary facet, from 1; 0 for any\n(default 2)");
   options.number("--cell-shape", "R", 0, most, bounds.cell_shape, "the same for cells (default 2)");
@@ -92,6 +104,14 @@ void add_options(command_line::Options& options, Request& request)
                  "(default 1e-6)");
   options.flag("--repair", request.mending.repair,
                "where mending doesn't suffice, fill holes and remove self-intersections as CGAL does");
+  options.number("--iso", "VALUE", -most, most, request.iso,
+                 "take an image for grey values or signed distances: the value on the boundary of the\ndomain, "
+                 "interpolated between voxels");
+  options.text("--inside", "above|below", request.image.inside,
+               "which values belong to the domain, with --iso. Without it those that are rarer at the\nimage's border");
+  options.flag("--labels", request.image.takes_labels, "take an image for labels, even if it looks like grey values");
+  options.texts("--name", "LABEL:NAME", request.name_texts,
+                "name of a subdomain in .msh and .vtu files; may be given several times");
   add_outputs(options, request, ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), or of the boundary alone .off or .stl");
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   add_histogram(options, request, "a picture of the distribution of dihedral angles");
@@ -106,6 +126,35 @@ void check_shape(const command_line::Options& options, const std::string& option
   if (bound > 0 && bound < 1) throw Error(option + ": '" + options.value(option) + "' is neither 0 nor at least 1");
 }
 
+/// Reads what options say of labels.
+void check_labels(Request& request)
+{
+  command_line::read_lengths("--size", "label", request.size_texts, false, request.size, request.size_of);
+  command_line::read_lengths("--approximation", "label", request.approximation_texts, true, request.approximation,
+                             request.approximation_of);
+  request.approximation_is_given = request.approximation_texts.size() > request.approximation_of.size();
+  command_line::read_by_label(
+      "--name", "label", request.name_texts,
+      [](const std::string& text) {
+        if (text.empty()) throw Error("--name: a name is missing");
+        return text;
+      },
+      [](const std::string& text) { throw Error("--name: '" + text + "' isn't LABEL:NAME"); }, request.bounds.name_of);
+}
+
+void check_image_options(const Request& request)
+{
+  const mesh_3_program::Image_options& image = request.image;
+  const bool is_image = mesh_3_program::is_image_filename(request.inputs.front());
+  if (image.iso && !is_image) throw Error("--iso goes with images only");
+  if (image.takes_labels && !is_image) throw Error("--labels goes with images only");
+  if (image.iso && image.takes_labels) throw Error("--iso and --labels exclude each other");
+  if (image.inside.empty()) return;
+  if (!image.iso) throw Error("--inside goes with --iso only");
+  if (image.inside != "above" && image.inside != "below")
+    throw Error("--inside: '" + image.inside + "' is neither above nor below");
+}
+
 /// What options mean together.
 void check(const command_line::Options& options, Request& request)
 {
@@ -118,7 +167,9 @@ void check(const command_line::Options& options, Request& request)
   command_line::check_min_dihedral(options, request.min_dihedral);
   if (request.mending.strict && (request.mending.repair || options.has("--weld")))
     throw Error("--strict excludes --weld and --repair");
-  request.approximation_is_given = options.has("--approximation");
+  check_labels(request);
+  if (options.has("--iso")) request.image.iso = request.iso;
+  check_image_options(request);
   auto& run = request.options;
   if (request.no_optimise) {
     run.coarsen = false;
@@ -145,7 +196,8 @@ void append_unsatisfied(std::string& text, const weft::Unsatisfied_3& bad, const
 }
 
 /// What keeps the mesh from what was asked for, as one line; empty if nothing does.
-std::string what_is_missing(const Request& request, const weft::Mesh_report_3& report, double smallest_dihedral)
+std::string what_is_missing(const Request& request, const weft::Mesh_report_3& report, double smallest_dihedral,
+                            std::size_t left_out)
 {
   using command_line::append_to_list;
   std::string text;
@@ -164,6 +216,8 @@ std::string what_is_missing(const Request& request, const weft::Mesh_report_3& r
     if (!s.has_volume()) append_to_list(text, "the volume" + of_subdomain + " is wrong");
     if (!s.has_topology()) append_to_list(text, "parts or handles" + of_subdomain + " are missing or too many");
   }
+  if (left_out > 0)
+    append_to_list(text, weft::internal::counted(left_out, "component", "components") + " of labels left out");
   append_to_list(text, command_line::missing_dihedral(request.min_dihedral, smallest_dihedral));
   if (report.stop_reason != weft::Stop_reason::criteria_met)
     return std::string("stopped early, ") + name(report.stop_reason) + (text.empty() ? "" : ": ") + text;
@@ -189,17 +243,19 @@ void write_files(const Request& request, const Result& result, command_line::Out
 /// The domain that the input bounds; says what was changed in it.
 std::unique_ptr<Domain> read_domain(const Request& request)
 {
-  if (mesh_3_program::is_image_filename(request.inputs.front()))
-    return mesh_3_program::read_image(request.inputs.front());
+  const bool is_image = mesh_3_program::is_image_filename(request.inputs.front());
   try {
-    auto domain = mesh_3_program::read_surfaces(request.inputs, request.features, request.mending);
+    auto domain = is_image ? mesh_3_program::read_image(request.inputs.front(), request.image)
+                           : mesh_3_program::read_surfaces(request.inputs, request.features, request.mending);
     for (const std::string& change : domain->changes())
       if (!request.quiet) command_line::complain("mesh_3", request.input() + ": " + change);
     return domain;
   } catch (const weft::Domain_error& error) {
     const std::string what = error.what();
     std::string advice;
-    if (request.mending.strict)
+    if (is_image)
+      advice = "";
+    else if (request.mending.strict)
       advice = "; without --strict it would be mended if that can be";
     else if (!request.mending.repair && what.find("give it a thickness") == std::string::npos)
       advice = "; --repair tries to set it right";
@@ -214,6 +270,8 @@ mesh_3_program::Bounds bounds(const Request& request, const Domain& domain)
   const double extent = domain.extent();
   bounds.size = request.size.in(extent);
   bounds.approximation = request.approximation.in(extent);
+  for (const auto& [label, size] : request.size_of) bounds.size_of[label] = size.in(extent);
+  for (const auto& [label, length] : request.approximation_of) bounds.approximation_of[label] = length.in(extent);
   if (!request.approximation_is_given) bounds.approximation = std::max(bounds.approximation, 0.6 * domain.detail());
   return bounds;
 }
@@ -229,17 +287,22 @@ Status run(const Request& request)
   Meshing_progress progress(!request.quiet, 0.1);
   weft::Mesh_options_3 options = request.options;
   options.visitor = std::ref(progress);
-  options.size_floor = 0.3 * domain->detail();
-  const auto result = domain->mesh(bounds(request, *domain), options);
+  const mesh_3_program::Bounds asked = bounds(request, *domain);
+  options.size_floor = domain->least_edge();
+  for (const auto& [label, size] : asked.size_of) options.size_floor = std::min(options.size_floor, 0.3 * size);
+  options.size_floor = std::min(options.size_floor, 0.3 * asked.size);
+  const auto result = domain->mesh(asked, options);
   progress.bar().clear();
 
   const weft::Mesh_report_3& report = mesh_3_program::report(*result);
   if (is_empty(*result))
     throw Error(request.input() + ": no mesh yet, " + name(report.stop_reason) + "; nothing is written");
-  const std::string missing = what_is_missing(request, report, smallest_dihedral(*result));
+  const std::vector<std::string> left_out = mesh_3_program::left_out(*result);
+  const std::string missing = what_is_missing(request, report, smallest_dihedral(*result), left_out.size());
   write_files(request, *result, files);
   if (!request.quiet) {
     std::cout << report;
+    for (const std::string& line : left_out) std::cout << line << "\n";
     if (request.outputs.empty()) std::cout << "no mesh is written: --output FILE names one\n";
     std::cout << std::flush;
   }

@@ -13,7 +13,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace command_line {
@@ -65,6 +67,35 @@ void add_max_vertices(Options& options, Run_options& run)
 inline void add_quiet(Options& options, Files& files)
 {
   options.flag("--quiet", files.quiet, "no progress and no report; errors are still said");
+}
+
+/// Values of which one may hold for all labels, and others for a single label each, given as LABEL:VALUE.
+/// \param what the label is called. \param read makes a value of a text. \param take takes the general one.
+template <class Value, class Read, class Take>
+void read_by_label(const std::string& option, const std::string& what, const std::vector<std::string>& texts,
+                   const Read& read, const Take& take, std::map<int, Value>& of_label)
+{
+  bool has_general = false;
+  for (const std::string& text : texts) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string::npos) {
+      if (std::exchange(has_general, true)) throw Error(option + " is given twice");
+      take(read(text));
+    } else {
+      const int label = read_integer(option, text.substr(0, colon));
+      if (!of_label.emplace(label, read(text.substr(colon + 1))).second)
+        throw Error(option + " is given twice for the " + what + " " + std::to_string(label));
+    }
+  }
+}
+
+/// The same for lengths.
+inline void read_lengths(const std::string& option, const std::string& what, const std::vector<std::string>& texts,
+                         bool may_be_zero, Length& general, std::map<int, Length>& of_label)
+{
+  read_by_label(
+      option, what, texts, [&](const std::string& text) { return read_length(option, text, may_be_zero); },
+      [&](const Length& length) { general = length; }, of_label);
 }
 
 /// Refuses calls without input, and outputs that can't be written.

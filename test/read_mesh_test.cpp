@@ -168,6 +168,28 @@ std::string vtu(const std::string& attributes, const Array& array, const std::st
 
 // ---- round trips
 
+TEST_CASE("names of subdomains and patches are in the files that have some, and don't disturb reading")
+{
+  const auto two = fixtures::box(2, true);
+  weft::Mesh_names_3 names;
+  names.subdomains = {{1, "bone \"a\""}, {2, "soft tissue"}};
+  names.patches = {{0, "skin"}};
+  for (const std::string extension : {"mesh", "vtu", "msh"}) {
+    const File file("named." + extension);
+    weft::IO::write_mesh_3(file.name(), two.mesh, names);
+    check_same(weft::IO::read_tetrahedral_mesh<K>(file.name()).mesh, two.mesh);
+    std::ifstream in(file.name());
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (extension == "msh")
+      CHECK(
+          contains(text, "$PhysicalNames\n3\n2 1 \"skin\"\n3 1 \"bone 'a'\"\n3 2 \"soft tissue\"\n$EndPhysicalNames"));
+    if (extension == "vtu") {
+      CHECK(contains(text, "Name=\"named_subdomains\" NumberOfTuples=\"2\" format=\"ascii\">\n1\n2\n"));
+      CHECK(contains(text, "Name=\"patch_names\" NumberOfTuples=\"1\" format=\"ascii\">\n115 107 105 110 0\n"));
+    }
+  }
+}
+
 TEST_CASE("what weft writes comes back with all tags from every format")
 {
   const auto box = fixtures::box(2), two = fixtures::box(2, true), ball = fixtures::ball(400, 40);

@@ -26,7 +26,8 @@ namespace concepts {
 ///
 /// examples/custom_oracle.h is an oracle with all of it.
 ///
-/// Models: weft::Polyhedral_oracle_3, weft::Implicit_oracle_3, weft::Labelled_oracle_3, weft::Mesh_domain_oracle_3.
+/// Models: weft::Polyhedral_oracle_3, weft::Implicit_oracle_3, weft::Labelled_oracle_3, weft::Image_oracle_3,
+/// weft::Mesh_domain_oracle_3.
 /// \tparam Model what this archetype passes everything on to, and `is_asked_labels_first` which of the two kinds of
 ///   oracles it is; no part of the concept.
 /// \ingroup concept_classes
@@ -158,6 +159,27 @@ public:
   /// Moves the center of a ball to the nearest point of such an edge if that is near.
   /// \returns whether it is.
   bool attract_to_acute_edge(Point& p, double radius) const { return model_.attract_to_acute_edge(p, radius); }
+
+  /// The smallest angle in degrees of the edges of the boundary whose sides a ball reaches both; 180 if there is none.
+  double acute_angle_at(const Point& center, double radius) const { return model_.acute_angle_at(center, radius); }
+
+  /// Whether `visit_mirror_images()` and `visit_creases_at_small_angles()` ever visit anything.
+  bool has_mirror_images() const { return model_.has_mirror_images(); }
+
+  /// Calls `visit(image, location)` for the places on the other side of small angles where a vertex of the boundary
+  /// wants a twin, as far as they are nearer to it than `spacing`.
+  template <class Visit>
+  void visit_mirror_images(const Point& p, const weft::Vertex_location_3& at, double spacing, const Visit& visit) const
+  {
+    model_.visit_mirror_images(p, at, spacing, visit);
+  }
+
+  /// Calls `visit(other crease, angle in radians)` for the creases that meet a crease at a small angle.
+  template <class Visit>
+  void visit_creases_at_small_angles(int crease, const Visit& visit) const
+  {
+    model_.visit_creases_at_small_angles(crease, visit);
+  }
   /// @}
 
 private:

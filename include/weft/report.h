@@ -91,6 +91,9 @@ struct Mesh_report_3
   bool manifold = false;                                  ///< whether the boundary is a closed 2-manifold
 
   Unsatisfied_3 bad_edges, bad_facets, bad_cells;
+  /// Elements at small angles of the input whose shape these force: they violate bounds on shapes, which don't apply to
+  /// them, and aren't bad.
+  std::size_t forced_facets = 0, forced_cells = 0;
   std::size_t bad_vertices = 0; ///< vertices without a topological disk of boundary facets or crease edges
   std::size_t bare_patches = 0; ///< patches without a boundary facet
   Domain_comparison_3 domain;   ///< the mesh beside its domain: what is missing; made at the end
@@ -156,6 +159,9 @@ WEFT_COLD inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3
   unsatisfied(r.bad_edges, "crease edges");
   unsatisfied(r.bad_facets, "facets");
   unsatisfied(r.bad_cells, "cells");
+  if (r.forced_facets || r.forced_cells)
+    out << "at small angles of the input: shapes of " << counted(r.forced_facets, "facet", "facets") << " and "
+        << counted(r.forced_cells, "cell", "cells") << "\n";
   if (r.bad_vertices) out << r.bad_vertices << " vertices without a topological disk\n";
   if (r.bare_patches) out << counted(r.bare_patches, "patch", "patches") << " without a facet\n";
   out << r.domain;

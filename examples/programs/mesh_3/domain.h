@@ -11,7 +11,9 @@
 #include <weft/spatial/surface/Feature_options.h>
 #include <weft/spatial/surface/Mend_options_3.h>
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,9 @@ namespace mesh_3_program {
 /// What a mesh has to satisfy, as in `weft::Criteria_3`.
 struct Bounds
 {
-  double size = 0, approximation = 0; ///< in the input's units
+  double size = 0, approximation = 0;              ///< in the input's units
+  std::map<int, double> size_of, approximation_of; ///< instead, of subdomains with a label
+  std::map<int, std::string> name_of;              ///< what subdomains with a label are called in files
   double facet_shape = 2, cell_shape = 2;
   bool topology = false, manifold = false;
 };
@@ -34,10 +38,12 @@ class Domain
 public:
   virtual ~Domain() = default;
 
-  virtual double extent() const = 0; ///< diagonal of its bounding box
-  virtual double detail() const = 0; ///< size of the smallest details of the input that count; 0 if all do
+  virtual double extent() const = 0;              ///< diagonal of its bounding box
+  virtual double detail() const = 0;              ///< size of the smallest details of the input that count; 0 if all do
+  virtual double least_edge() const { return 0; } ///< below which refinement ends; 0 for weft's own floor
   /// What was changed in the input, for people.
   virtual std::vector<std::string> changes() const { return {}; }
+  /// \throws weft::Option_error for a label that the input doesn't have.
   virtual std::shared_ptr<const Result> mesh(const Bounds& bounds, const weft::Mesh_options_3& options) const = 0;
 };
 
@@ -54,16 +60,29 @@ struct Mending
 std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames, const weft::Feature_options& features,
                                       const Mending& mending);
 
-/// Whether a file is a labelled image, by its name.
+/// Whether a file is an image, by its name.
 bool is_image_filename(const std::string& filename);
-/// \throws weft::File_error if the file can't be read.
-std::unique_ptr<Domain> read_image(const std::string& filename);
+
+/// What the values of an image mean.
+struct Image_options
+{
+  std::optional<double> iso; ///< grey values: that on the boundary of the domain; without it they are labels
+  std::string inside;        ///< "above" or "below" it; empty for what the image's border tells
+  bool takes_labels = false; ///< labels, however much they look like grey values
+};
+
+/// \throws weft::File_error if the file can't be read, weft::Domain_error if there is no domain in it, or if labels
+/// look
+///   like grey values.
+std::unique_ptr<Domain> read_image(const std::string& filename, const Image_options& options);
 
 // ---- Results
 
 const weft::Mesh_report_3& report(const Result& result);
 bool is_empty(const Result& result);
 double smallest_dihedral(const Result& result); ///< in degrees
+/// Components of labels that stayed out of the mesh, a line each, for people.
+std::vector<std::string> left_out(const Result& result);
 
 bool is_mesh_filename(const std::string& filename);
 void write_mesh(const std::string& filename, const Result& result);

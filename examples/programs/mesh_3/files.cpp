@@ -4,6 +4,7 @@
 
 #include "surface.h"
 
+#include <weft/internal/counted.h>
 #include <weft/IO/read_surface.h>
 #include <weft/IO/write_angle_histogram_svg.h>
 #include <weft/IO/write_mesh_3.h>
@@ -13,6 +14,7 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <sstream>
 #include <utility>
 
 namespace mesh_3_program {
@@ -56,10 +58,26 @@ std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames,
 
 // ---- Results
 
-std::shared_ptr<const Result> make_result(weft::Tetrahedral_mesh_3<K> mesh, const weft::Mesh_report_3& report)
+std::shared_ptr<const Result> make_result(weft::Tetrahedral_mesh_3<K> mesh, const weft::Mesh_report_3& report,
+                                          weft::Mesh_names_3 names,
+                                          std::optional<std::vector<weft::Voxel_component_3>> missing)
 {
   const weft::Quality_3 quality = weft::measure_quality_3(mesh);
-  return std::make_shared<const Result>(Result{std::move(mesh), report, quality});
+  return std::make_shared<const Result>(Result{std::move(mesh), report, quality, std::move(names), std::move(missing)});
+}
+
+std::vector<std::string> left_out(const Result& result)
+{
+  std::vector<std::string> lines;
+  if (!result.missing) return lines;
+  for (const weft::Voxel_component_3& c : *result.missing) {
+    std::ostringstream line;
+    line << "left out: a component of label " << c.label << " with "
+         << weft::internal::counted(c.voxels, "voxel", "voxels") << ", volume " << c.volume << ", at (" << c.center[0]
+         << ", " << c.center[1] << ", " << c.center[2] << ")";
+    lines.push_back(line.str());
+  }
+  return lines;
 }
 
 const weft::Mesh_report_3& report(const Result& result)
@@ -84,12 +102,15 @@ bool is_mesh_filename(const std::string& filename)
 
 void write_mesh(const std::string& filename, const Result& result)
 {
-  weft::IO::write_mesh_3(filename, result.mesh);
+  weft::IO::write_mesh_3(filename, result.mesh, result.names);
 }
 
 void write_report(const std::string& filename, const Result& result)
 {
-  weft::IO::write_report_json(filename, result.report, result.quality);
+  if (result.missing)
+    weft::IO::write_report_json(filename, result.report, result.quality, *result.missing);
+  else
+    weft::IO::write_report_json(filename, result.report, result.quality);
 }
 
 void write_histogram(const std::string& filename, const Result& result, const std::string& title)

@@ -5,13 +5,23 @@
 #include <weft/mesh_surface_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
 
+#include <cstddef>
+#include <utility>
+
 namespace mesh_3_program {
 
 std::shared_ptr<const Result> mesh_surface(const weft::Piecewise_smooth_complex_3<K>& surface, const Bounds& bounds,
                                            const weft::Mesh_options_3& options)
 {
-  const auto result = weft::mesh_surface_3(surface, criteria(bounds), options);
-  return make_result(weft::tetrahedral_mesh(result.restricted), result.report);
+  Parts parts;
+  for (int p = 0; p < surface.number_of_patches; ++p) {
+    parts.sides.push_back(surface.sides.empty() ? std::make_pair(1, 0) : surface.sides[static_cast<std::size_t>(p)]);
+    for (const int side : {parts.sides.back().first, parts.sides.back().second})
+      if (side != 0) parts.subdomains[side] = side;
+  }
+  const weft::Mesh_names_3 names{by_subdomain(bounds.name_of, parts), {}};
+  const auto result = weft::mesh_surface_3(surface, criteria(bounds, parts), options);
+  return make_result(weft::tetrahedral_mesh(result.restricted), result.report, names);
 }
 
 } // namespace mesh_3_program

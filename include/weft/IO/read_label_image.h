@@ -10,15 +10,10 @@
 #include <weft/errors.h>
 #include <weft/IO/internal/extension.h>
 #include <weft/IO/internal/label_values.h>
-#include <weft/IO/internal/nifti_image.h>
+#include <weft/IO/internal/read_image_voxels.h>
 #include <weft/spatial/domain/Label_image_3.h>
 
-#include <CGAL/Image_3.h>
-
-#include <cstddef>
-#include <fstream>
 #include <string>
-#include <vector>
 
 namespace weft {
 namespace IO {
@@ -39,24 +34,9 @@ inline bool is_label_image_filename(const std::string& filename)
 /// \throws Domain_error if it has no labels or too many.
 inline Label_image_3 read_label_image(const std::string& filename)
 {
-  if (!std::ifstream(filename)) throw File_error(filename, 0, "can't be opened"); // CGAL would print
-  const std::string type = weft::internal::extension(filename);
-  const bool is_nifti =
-      (type == "gz" ? weft::internal::extension(filename.substr(0, filename.size() - 3)) : type) == "nii";
-  if (is_nifti) return weft::internal::read_nifti(filename);
-  CGAL::Image_3 image;
-  if (!image.read(filename)) throw File_error(filename, 0, "isn't an image that can be read");
-  const std::size_t nx = image.xdim(), ny = image.ydim(), nz = image.zdim();
-  const auto* data = image.image();
-  if (data->vdim != 1) throw File_error(filename, 0, "has several values per voxel");
-  std::vector<int> values;
-  values.reserve(nx * ny * nz);
-  for (std::size_t z = 0; z < nz; ++z)
-    for (std::size_t y = 0; y < ny; ++y)
-      for (std::size_t x = 0; x < nx; ++x)
-        values.push_back(weft::internal::label_value(filename, image.value(x, y, z)));
-  return Label_image_3({{nx, ny, nz}}, {{image.vx(), image.vy(), image.vz()}}, {{image.tx(), image.ty(), image.tz()}},
-                       values);
+  const auto voxels = weft::internal::read_image_voxels<int>(
+      filename, [&](double value) { return weft::internal::label_value(filename, value); });
+  return Label_image_3(voxels.size, voxels.spacing, voxels.origin, voxels.values);
 }
 
 } // namespace IO

@@ -12,6 +12,7 @@
 #include <weft/internal/cold.h>
 #include <weft/IO/internal/Gmsh_writer.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
+#include <weft/spatial/mesh/Mesh_names_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <algorithm>
@@ -65,7 +66,7 @@ WEFT_COLD void bound_gmsh_entities(Gmsh_entities& entities, const Tetrahedral_me
 
 /// Distributes the mesh over entities. A vertex is a node of the entity it lies on.
 template <class K>
-WEFT_COLD Gmsh_entities gmsh_entities(const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD Gmsh_entities gmsh_entities(const Tetrahedral_mesh_3<K>& mesh, const Mesh_names_3& names)
 {
   Gmsh_entities entities;
   add_gmsh_elements(entities, mesh, 1, mesh.edges, mesh.creases, 1);
@@ -81,6 +82,10 @@ WEFT_COLD Gmsh_entities gmsh_entities(const Tetrahedral_mesh_3<K>& mesh)
   bound_gmsh_entities(entities, mesh);
   for (auto& of_dimension : entities)
     for (auto& [tag, entity] : of_dimension) entity.physical = tag;
+  for (auto& [tag, entity] : entities[2])
+    if (const auto name = names.patches.find(tag - 1); name != names.patches.end()) entity.name = name->second;
+  for (auto& [tag, entity] : entities[3])
+    if (const auto name = names.subdomains.find(tag); name != names.subdomains.end()) entity.name = name->second;
   return entities;
 }
 
@@ -90,11 +95,13 @@ namespace IO {
 
 /// Writes a mesh as a .msh file. Tags: feature + 1 of points, crease + 1 of curves, patch + 1 of surfaces, subdomain of
 /// volumes. Facets are counterclockwise seen from outside, cells positively oriented.
+/// \param names become those of physical groups.
 /// \throws File_error if the file can't be written.
 template <class K>
-WEFT_COLD void write_gmsh(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_gmsh(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh,
+                          const Mesh_names_3& names = Mesh_names_3())
 {
-  const internal::Gmsh_entities entities = internal::gmsh_entities(mesh);
+  const internal::Gmsh_entities entities = internal::gmsh_entities(mesh, names);
   internal::Gmsh_writer out(filename, entities);
   out.write_nodes([&](std::size_t v) { return internal::xyz(mesh.points[v]); });
   out.begin_elements();

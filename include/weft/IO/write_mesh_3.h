@@ -12,6 +12,7 @@
 #include <weft/IO/write_off_3.h>
 #include <weft/IO/write_stl_3.h>
 #include <weft/IO/write_vtu_3.h>
+#include <weft/spatial/mesh/Mesh_names_3.h>
 
 #include <string>
 
@@ -26,14 +27,16 @@ inline bool is_mesh_3_filename(const std::string& filename)
 }
 
 /// Writes a mesh as .mesh (Medit), .vtu (VTK) or .msh (Gmsh 4.1) with all tags, or its boundary as .off or .stl.
+/// \param names of subdomains and patches, for .vtu and .msh.
 /// \throws File_error if the extension is unknown or the file can't be written.
 template <class K>
-void write_mesh_3(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+void write_mesh_3(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh,
+                  const Mesh_names_3& names = Mesh_names_3())
 {
   const std::string extension = internal::extension(filename);
   if (extension == "mesh") return write_medit(filename, mesh);
-  if (extension == "vtu") return write_vtu(filename, mesh);
-  if (extension == "msh") return write_gmsh(filename, mesh);
+  if (extension == "vtu") return write_vtu(filename, mesh, names);
+  if (extension == "msh") return write_gmsh(filename, mesh, names);
   if (extension == "off") return write_off(filename, mesh);
   if (extension == "stl") return write_stl(filename, mesh);
   throw File_error(filename, 0, "unknown extension; known are .mesh, .vtu, .msh, .off and .stl");

@@ -8,6 +8,7 @@
 
 #include <weft/IO/write_report_json_2.h>
 #include <weft/report.h>
+#include <weft/spatial/domain/Voxel_components_3.h>
 #include <weft/spatial/local/Improve_options_3.h>
 #include <weft/spatial/mesh/quality_3.h>
 
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace weft {
 namespace internal {
@@ -94,6 +96,8 @@ inline Json to_json(const Mesh_report_3& r)
           {"bad_edges", to_json(r.bad_edges)},
           {"bad_facets", to_json(r.bad_facets)},
           {"bad_cells", to_json(r.bad_cells)},
+          {"forced_facets", r.forced_facets},
+          {"forced_cells", r.forced_cells},
           {"bad_vertices", r.bad_vertices},
           {"bare_patches", r.bare_patches},
           {"domain", to_json(r.domain)},
@@ -154,9 +158,17 @@ inline std::string report_json(const Improve_report_3& r)
   return json_text(json);
 }
 
-inline std::string report_json(const Mesh_report_3& report, const Quality_3& quality)
+inline std::string report_json(const Mesh_report_3& report, const Quality_3& quality,
+                               const std::vector<Voxel_component_3>* missing = nullptr)
 {
   Json json = to_json(report);
+  if (missing) {
+    Json list = Json::array();
+    for (const Voxel_component_3& c : *missing)
+      list.push_back({{"label", c.label}, {"voxels", c.voxels}, {"volume", c.volume}, {"center", c.center}});
+    json["missing_components"] = list;
+    json["ok"] = report.ok() && missing->empty();
+  }
   json["quality"] = to_json(quality);
   return json_text(json);
 }
@@ -177,6 +189,16 @@ inline void write_report_json(std::ostream& out, const Mesh_report_3& report, co
 inline void write_report_json(const std::string& filename, const Mesh_report_3& report, const Quality_3& quality)
 {
   internal::write_text_file(filename, internal::report_json(report, quality));
+}
+
+/// Writes the same object, of the mesh of an image, with the member "missing_components": the components of labels that
+/// stayed out, as `missing_components_3()` has them, each with its label, the number and the volume of its voxels and
+/// the center of one of them. Not "ok" if there are some.
+/// \throws File_error if the file can't be written.
+inline void write_report_json(const std::string& filename, const Mesh_report_3& report, const Quality_3& quality,
+                              const std::vector<Voxel_component_3>& missing)
+{
+  internal::write_text_file(filename, internal::report_json(report, quality, &missing));
 }
 
 /// Writes what `improve_3()` did, with the quality of the mesh before and after as members "before" and "after".

@@ -12,10 +12,12 @@
 #include <weft/internal/cold.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/internal/vtu_array.h>
+#include <weft/spatial/mesh/Mesh_names_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -101,18 +103,44 @@ WEFT_COLD void write_vtu_tags(Text_writer& out, const Tetrahedral_mesh_3<K>& mes
   end_vtu_array(out);
 }
 
+/// Field data: numbers that have names, and the names, which VTK wants as characters that end with 0.
+WEFT_COLD inline void write_vtu_names(Text_writer& out, const std::string& what,
+                                      const std::map<int, std::string>& names)
+{
+  if (names.empty()) return;
+  const std::string tuples = "\" NumberOfTuples=\"" + std::to_string(names.size()) + "\" format=\"ascii\">\n";
+  out << "      <DataArray type=\"Int32\" Name=\"named_" << what << 's' << tuples;
+  for (const auto& [number, name] : names) out << number << '\n';
+  end_vtu_array(out);
+  out << "      <DataArray type=\"String\" Name=\"" << what << "_names" << tuples;
+  for (const auto& [number, name] : names) {
+    for (const char c : name) out << static_cast<int>(static_cast<unsigned char>(c)) << ' ';
+    out << "0\n";
+  }
+  end_vtu_array(out);
+}
+
 } // namespace internal
 
 namespace IO {
 
 /// Writes a mesh as a .vtu file. Facets are counterclockwise seen from outside.
+/// \param names become field data: `named_subdomains` with the numbers, `subdomain_names`, and the same of patches.
 /// \throws File_error if the file can't be written.
 template <class K>
-WEFT_COLD void write_vtu(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_vtu(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh,
+                         const Mesh_names_3& names = Mesh_names_3())
 {
   internal::Text_writer out(filename);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-      << "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\""
+      << "  <UnstructuredGrid>\n";
+  if (!names.subdomains.empty() || !names.patches.empty()) {
+    out << "    <FieldData>\n";
+    internal::write_vtu_names(out, "subdomain", names.subdomains);
+    internal::write_vtu_names(out, "patch", names.patches);
+    out << "    </FieldData>\n";
+  }
+  out << "    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\""
       << mesh.cells.size() + mesh.facets.size() + mesh.edges.size() + mesh.corners.size() << "\">\n";
   internal::write_vtu_points(out, mesh);
   internal::write_vtu_cells(out, mesh);

@@ -25,6 +25,7 @@ namespace weft::internal {
 struct Gmsh_entity
 {
   int physical = 0; ///< tag of its physical group; 0: none
+  std::string name; ///< of that group; may be empty
   std::array<double, 3> lower, upper;
   std::vector<std::size_t> nodes, elements; ///< indices into the mesh's arrays
   std::set<int> boundary;                   ///< tags of the entities of one dimension less around it, where known
@@ -55,6 +56,7 @@ public:
       : out_(filename), entities_(entities)
   {
     out_ << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    write_names();
     write_entities();
   }
 
@@ -112,6 +114,23 @@ public:
   }
 
 private:
+  /// A group's name is that of its first entity that has one.
+  void write_names()
+  {
+    std::map<std::array<int, 2>, std::string> names;
+    for (int dimension = 0; dimension <= 3; ++dimension)
+      for (const auto& [tag, entity] : entities_[as_index(dimension)])
+        if (entity.physical != 0 && !entity.name.empty()) names.try_emplace({dimension, entity.physical}, entity.name);
+    if (names.empty()) return;
+    out_ << "$PhysicalNames\n" << names.size() << '\n';
+    for (const auto& [group, name] : names) {
+      out_ << group[0] << ' ' << group[1] << " \"";
+      for (const char c : name) out_ << (c == '"' || static_cast<unsigned char>(c) < ' ' ? '\'' : c);
+      out_ << "\"\n";
+    }
+    out_ << "$EndPhysicalNames\n";
+  }
+
   void write_entities()
   {
     out_ << "$Entities\n"

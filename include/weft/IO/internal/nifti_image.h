@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Labelled images in the format NIfTI-1 (.nii, .nii.gz), read by the NIfTI project's own library niftiio. Programs that
+// Images in the format NIfTI-1 (.nii, .nii.gz), read by the NIfTI project's own library niftiio. Programs that
 // link it say so by WEFT_LINKED_WITH_NIFTI; without it such files are refused.
 
 #ifndef WEFT_IO_INTERNAL_NIFTI_IMAGE_H
 #define WEFT_IO_INTERNAL_NIFTI_IMAGE_H
 
 #include <weft/errors.h>
-#include <weft/IO/internal/label_values.h>
-#include <weft/spatial/domain/Label_image_3.h>
+#include <weft/IO/internal/Image_voxels.h>
 
 #ifdef WEFT_LINKED_WITH_NIFTI
 #include <nifti1_io.h>
@@ -137,7 +136,8 @@ inline Nifti_frame nifti_frame(const nifti_image& image)
 }
 
 /// The image in scanner coordinates where its axes are theirs, perhaps reversed; else in its own, from 0.
-inline Label_image_3 read_nifti(const std::string& filename)
+template <class Number, class Convert>
+Image_voxels<Number> read_nifti(const std::string& filename, const Convert& convert)
 {
   const Nifti_file file = read_nifti_file(filename);
   const nifti_image* const image = file.image.get();
@@ -151,19 +151,20 @@ inline Label_image_3 read_nifti(const std::string& filename)
   Nifti_frame frame = nifti_frame(*image);
   for (std::size_t k = 0; k < 3; ++k)
     if (frame.falls[k]) frame.origin[k] -= static_cast<double>(size[k] - 1) * spacing[k];
-  std::vector<int> labels;
-  labels.reserve(values.size());
+  Image_voxels<Number> voxels{size, spacing, frame.origin, {}};
+  voxels.values.reserve(values.size());
   const auto place = [&](std::size_t i, std::size_t k) { return frame.falls[k] ? size[k] - 1 - i : i; };
   for (std::size_t z = 0; z < size[2]; ++z)
     for (std::size_t y = 0; y < size[1]; ++y)
       for (std::size_t x = 0; x < size[0]; ++x)
-        labels.push_back(label_value(filename, values[(place(z, 2) * size[1] + place(y, 1)) * size[0] + place(x, 0)]));
-  return Label_image_3(size, spacing, frame.origin, labels);
+        voxels.values.push_back(convert(values[(place(z, 2) * size[1] + place(y, 1)) * size[0] + place(x, 0)]));
+  return voxels;
 }
 
 #else
 
-inline Label_image_3 read_nifti(const std::string& filename)
+template <class Number, class Convert>
+Image_voxels<Number> read_nifti(const std::string& filename, const Convert&)
 {
   throw File_error(filename, 0, "NIfTI images can't be read: this program was built without the library niftiio");
 }

@@ -49,6 +49,13 @@ public:
   /// Nearest point of the segments, rounded; equally near ones: that of the first segment.
   Point nearest(const Point& p) const
   {
+    int crease = 0;
+    return nearest(p, crease);
+  }
+
+  /// The same, and the crease of its segment, which is left as it is if there are none.
+  Point nearest(const Point& p, int& crease) const
+  {
     Point best = p;
     double squared = std::numeric_limits<double>::infinity();
     std::uint32_t best_item = Box_hierarchy_3::nothing;
@@ -68,6 +75,7 @@ public:
       const double padded = std::sqrt(squared) * boxes_.frame().scale * (1 + 1e-6) + error;
       return std::min(limit, static_cast<float>(padded * padded * (1 + 1e-6)));
     });
+    if (best_item != Box_hierarchy_3::nothing) crease = segments_[best_item].crease;
     return best;
   }
 

@@ -8,6 +8,7 @@
 
 #include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/criteria/forced_elements_3.h>
 #include <weft/spatial/restricted/Mesh_triangulation_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -44,11 +45,9 @@ public:
   /// A cell of the domain: size and shape, and what its subdomain or the user asks for.
   Badness_3 cell(Cell_handle c) const
   {
-    const std::array<const Point*, 4> p{
-        {&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()}};
-    Badness_3 badness = cell(p, c->circumcenter());
-    const auto own = criteria_->subdomains.find(c->subdomain());
-    if (own != criteria_->subdomains.end()) add_own_criteria(p, c->circumcenter(), own->second, badness);
+    const auto p = points(c);
+    Badness_3 badness = labelled_cell(p, c, true);
+    if ((badness.reasons & bad_shape) != 0 && is_forced(*mesh_, c)) badness = labelled_cell(p, c, false);
     if (criteria_->cell_demand && factor_ <= 1)
       badness.add(criteria_->cell_demand({p,
                                           {{c->vertex(0)->location(), c->vertex(1)->location(),
@@ -59,14 +58,36 @@ public:
     return badness;
   }
 
+  /// Whether a cell violates a bound on its shape that doesn't apply to it, since the input forces its shape.
+  bool has_forced_shape(Cell_handle c) const
+  {
+    return (labelled_cell(points(c), c, true).reasons & bad_shape) != 0 && is_forced(*mesh_, c);
+  }
+
+  /// The same for a restricted facet.
+  bool has_forced_shape(const typename Restricted::Restricted_facet& f) const
+  {
+    const Point &a = vertex(f, 1)->point(), &b = vertex(f, 2)->point(), &c = vertex(f, 3)->point();
+    const double shortest = (std::min)({squared(a, b), squared(b, c), squared(c, a)});
+    return has_forced_shape(f, std::sqrt(facet_squared_radius(a, b, c) / shortest));
+  }
+
+  /// A cell that has its circumcenter, but no label yet: size and shape as asked for everywhere.
+  Badness_3 unlabelled_cell(Cell_handle c) const
+  {
+    const auto p = points(c);
+    const Badness_3 badness = cell(p, c->circumcenter());
+    return (badness.reasons & bad_shape) != 0 && is_forced(*mesh_, c) ? cell(p, c->circumcenter(), false) : badness;
+  }
+
   /// A cell that isn't there yet: size and shape as asked for everywhere.
-  Badness_3 cell(const std::array<const Point*, 4>& p, const Point& circumcenter) const
+  Badness_3 cell(const std::array<const Point*, 4>& p, const Point& circumcenter, bool with_shape = true) const
   {
     Badness_3 badness;
     double shortest = -1;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = i + 1; j < 4; ++j) add_edge(*p[i], *p[j], badness, shortest);
-    if (criteria_->cell_shape > 0) {
+    if (with_shape && criteria_->cell_shape > 0) {
       const double r = squared(circumcenter, *p[0]);
       badness.add(std::sqrt(r / shortest) / (factor_ * criteria_->cell_shape), bad_shape);
     }
@@ -107,14 +128,21 @@ public:
     double shortest = -1;
     for (int i = 0; i < 3; ++i) add_edge(v[i]->point(), v[(i + 1) % 3]->point(), badness, shortest);
     const double radius = facet_squared_radius(v[0]->point(), v[1]->point(), v[2]->point());
-    if (criteria_->facet_shape > 0)
-      badness.add(std::sqrt(radius / shortest) / (factor_ * criteria_->facet_shape), bad_shape);
+    const auto own = criteria_->patches.find(f.patch);
+    const bool has_own = own != criteria_->patches.end();
+    const double ratio = std::sqrt(radius / shortest);
+    const bool with_shape = !has_forced_shape(f, ratio);
+    if (with_shape && criteria_->facet_shape > 0) badness.add(ratio / (factor_ * criteria_->facet_shape), bad_shape);
     if (const double bound = approximation(f.steiner, f.patch); bound > 0) {
       badness.add(approximation_error(f) / bound, bad_approximation);
       if (!badness.is_bad()) badness.add(worst_missed_point(f).ratio, bad_approximation);
     }
-    const auto own = criteria_->patches.find(f.patch);
-    if (own != criteria_->patches.end()) add_own_criteria(v, shortest, radius, own->second, badness);
+    if (has_own) {
+      if (own->second.size)
+        for (int i = 0; i < 3; ++i) add_edge(v[i]->point(), v[(i + 1) % 3]->point(), own->second.size, badness);
+      if (with_shape && own->second.facet_shape > 0)
+        badness.add(ratio / (factor_ * own->second.facet_shape), bad_shape);
+    }
     if (criteria_->facet_demand && factor_ <= 1)
       badness.add(criteria_->facet_demand({{{&v[0]->point(), &v[1]->point(), &v[2]->point()}},
                                            {{v[0]->location(), v[1]->location(), v[2]->location()}},
@@ -236,6 +264,31 @@ public:
   static constexpr double just_bad = 1.0001;
 
 private:
+  static std::array<const Point*, 4> points(Cell_handle c)
+  {
+    return {{&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()}};
+  }
+
+  /// \param ratio of its circumradius to its shortest edge.
+  bool has_forced_shape(const typename Restricted::Restricted_facet& f, double ratio) const
+  {
+    const auto own = criteria_->patches.find(f.patch);
+    const double bound = tighter(criteria_->facet_shape, own == criteria_->patches.end() ? 0 : own->second.facet_shape);
+    return bound > 0 && ratio > factor_ * bound && is_forced(*mesh_, f, bound);
+  }
+
+  /// The smaller of two bounds, of which 0 is none.
+  static double tighter(double a, double b) { return a == 0 || b == 0 ? a + b : (std::min)(a, b); }
+
+  /// By what its subdomain asks for, too.
+  Badness_3 labelled_cell(const std::array<const Point*, 4>& p, Cell_handle c, bool with_shape) const
+  {
+    Badness_3 badness = cell(p, c->circumcenter(), with_shape);
+    const auto own = criteria_->subdomains.find(c->subdomain());
+    if (own != criteria_->subdomains.end()) add_own_criteria(p, c->circumcenter(), own->second, badness, with_shape);
+    return badness;
+  }
+
   static double squared(const Point& p, const Point& q) { return CGAL::to_double(CGAL::squared_distance(p, q)); }
 
   bool is_too_long(const Point& p, const Point& q, double squared_length) const
@@ -259,7 +312,7 @@ private:
   }
 
   void add_own_criteria(const std::array<const Point*, 4>& p, const Point& circumcenter,
-                        const Subdomain_criteria_3<Kernel>& own, Badness_3& badness) const
+                        const Subdomain_criteria_3<Kernel>& own, Badness_3& badness, bool with_shape) const
   {
     double shortest = HUGE_VAL;
     for (std::size_t i = 0; i < 3; ++i)
@@ -267,16 +320,8 @@ private:
         shortest = (std::min)(shortest, squared(*p[i], *p[j]));
         if (own.size) add_edge(*p[i], *p[j], own.size, badness);
       }
-    if (own.cell_shape > 0)
+    if (with_shape && own.cell_shape > 0)
       badness.add(std::sqrt(squared(circumcenter, *p[0]) / shortest) / (factor_ * own.cell_shape), bad_shape);
-  }
-
-  void add_own_criteria(const Vertex_handle (&v)[3], double shortest, double squared_radius,
-                        const Patch_criteria_3<Kernel>& own, Badness_3& badness) const
-  {
-    if (own.size)
-      for (int i = 0; i < 3; ++i) add_edge(v[i]->point(), v[(i + 1) % 3]->point(), own.size, badness);
-    if (own.facet_shape > 0) badness.add(std::sqrt(squared_radius / shortest) / (factor_ * own.facet_shape), bad_shape);
   }
 
   /// The points that project into a triangle.

@@ -244,13 +244,7 @@ private:
   // ---- grades
 
   Grade grade(Cell_handle c) const { return {ratio(measure_.cell(c)), 0, 0, 0, 0}; }
-  Grade unlabelled_grade(Cell_handle c) const
-  {
-    return {ratio(measure_.cell(
-                {&c->vertex(0)->point(), &c->vertex(1)->point(), &c->vertex(2)->point(), &c->vertex(3)->point()},
-                c->circumcenter())),
-            0, 0, 0, 0};
-  }
+  Grade unlabelled_grade(Cell_handle c) const { return {ratio(measure_.unlabelled_cell(c)), 0, 0, 0, 0}; }
 
   Grade grade(const Facet& f) const
   {

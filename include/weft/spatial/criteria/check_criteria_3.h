@@ -8,7 +8,9 @@
 
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/criteria/forced_elements_3.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
+#include <weft/spatial/mesh/circumcenter_3.h>
 #include <weft/spatial/mesh/quality_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/mesh/Validity_3.h>
@@ -78,28 +80,82 @@ Validity_3 check_sizes_3(const Tetrahedral_mesh_3<K>& mesh, const Length_field_3
   return validity;
 }
 
-/// Checks the ratios of circumradius to shortest edge.
-/// \param facet_shape,cell_shape largest ratio of boundary facets and of cells; 0: no bound.
-template <class K>
-Validity_3 check_shapes_3(const Tetrahedral_mesh_3<K>& mesh, double facet_shape, double cell_shape)
+namespace internal {
+
+/// Checks shapes of the elements that a predicate doesn't exempt.
+/// \param is_exempt `is_exempt(facet)` and `is_exempt(cell)`, arrays of vertices.
+template <class K, class Is_exempt>
+Validity_3 check_shapes_but(const Tetrahedral_mesh_3<K>& mesh, double facet_shape, double cell_shape,
+                            const Is_exempt& is_exempt)
 {
   Validity_3 validity;
-  const auto judge = [&validity](double ratio, double bound, const char* what, const auto& element) {
-    if (!(ratio <= bound * internal::shape_tolerance))
+  const auto judge = [&](double ratio, double bound, const char* what, const auto& element) {
+    if (!(ratio <= bound * shape_tolerance) && !is_exempt(element))
       validity.add(Fault_kind_3::shape, what + (" has circumradius / shortest edge " + std::to_string(ratio)),
                    {element.begin(), element.end()});
   };
   if (facet_shape > 0)
     for (const auto& facet : mesh.facets)
-      judge(internal::Facet_measures_3(internal::Scaled_simplex_3<3>(mesh.points, facet)).ratio, facet_shape, "a facet",
-            facet);
+      judge(Facet_measures_3(Scaled_simplex_3<3>(mesh.points, facet)).ratio, facet_shape, "a facet", facet);
   if (cell_shape > 0)
     for (const auto& cell : mesh.cells) {
-      const internal::Scaled_simplex_3<4> simplex(mesh.points, cell);
-      const internal::Cell_measures_3 measures(simplex);
-      judge(internal::radius_edge_ratio<K>(mesh.points, cell, simplex, measures), cell_shape, "a cell", cell);
+      const Scaled_simplex_3<4> simplex(mesh.points, cell);
+      const Cell_measures_3 measures(simplex);
+      judge(radius_edge_ratio<K>(mesh.points, cell, simplex, measures), cell_shape, "a cell", cell);
     }
   return validity;
+}
+
+/// Whether the shape of an element is forced by small angles of a domain.
+template <class K, class Oracle>
+class Is_forced_3
+{
+public:
+  Is_forced_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle, double facet_shape)
+      : mesh_(mesh), oracle_(oracle), incidence_(oracle.incidence()), facet_shape_(facet_shape)
+  {}
+
+  bool operator()(const std::array<std::size_t, 3>& facet) const
+  {
+    return oracle_.has_mirror_images() &&
+           is_between_creases(oracle_, incidence_,
+                              {{mesh_.locations[facet[0]], mesh_.locations[facet[1]], mesh_.locations[facet[2]]}},
+                              2 * std::asin(0.5 / facet_shape_));
+  }
+
+  bool operator()(const std::array<std::size_t, 4>& cell) const
+  {
+    const auto at = [&](std::size_t i) -> const typename K::Point_3& { return mesh_.points[cell[i]]; };
+    return forcing_angle(oracle_,
+                         {{mesh_.locations[cell[0]], mesh_.locations[cell[1]], mesh_.locations[cell[2]],
+                           mesh_.locations[cell[3]]}},
+                         circumcenter_3<K>(at(0), at(1), at(2), at(3)), at(0)) < 180;
+  }
+
+private:
+  const Tetrahedral_mesh_3<K>& mesh_;
+  const Oracle& oracle_;
+  Feature_incidence_3 incidence_;
+  double facet_shape_;
+};
+
+} // namespace internal
+
+/// Checks the ratios of circumradius to shortest edge.
+/// \param facet_shape,cell_shape largest ratio of boundary facets and of cells; 0: no bound.
+template <class K>
+Validity_3 check_shapes_3(const Tetrahedral_mesh_3<K>& mesh, double facet_shape, double cell_shape)
+{
+  return internal::check_shapes_but(mesh, facet_shape, cell_shape, [](const auto&) { return false; });
+}
+
+/// The same but for elements whose shape small angles of a domain force, see `Mesh_report_3::forced_cells`.
+template <class K, class Oracle>
+Validity_3 check_shapes_3(const Tetrahedral_mesh_3<K>& mesh, double facet_shape, double cell_shape,
+                          const Oracle& oracle)
+{
+  return internal::check_shapes_but(mesh, facet_shape, cell_shape,
+                                    internal::Is_forced_3<K, Oracle>(mesh, oracle, facet_shape));
 }
 
 /// Checks that the vertices of a facet lie on its patch, on creases or on feature vertices.
@@ -134,6 +190,17 @@ Validity_3 check_criteria_3(const Tetrahedral_mesh_3<K>& mesh, const Criteria_3<
 {
   Validity_3 validity = check_sizes_3(mesh, criteria.size);
   validity += check_shapes_3(mesh, criteria.facet_shape, criteria.cell_shape);
+  if (criteria.topology) validity += check_topology_3(mesh);
+  return validity;
+}
+
+/// The same but for shapes that small angles of the domain force.
+/// \tparam Oracle a domain oracle.
+template <class K, class Oracle>
+Validity_3 check_criteria_3(const Tetrahedral_mesh_3<K>& mesh, const Criteria_3<K>& criteria, const Oracle& oracle)
+{
+  Validity_3 validity = check_sizes_3(mesh, criteria.size);
+  validity += check_shapes_3(mesh, criteria.facet_shape, criteria.cell_shape, oracle);
   if (criteria.topology) validity += check_topology_3(mesh);
   return validity;
 }

@@ -10,9 +10,9 @@
 #include <weft/internal/boxes/Box_hierarchy_3.h>
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/internal/boxes/nearest_point_3.h>
+#include <weft/spatial/domain/sheet_pairs_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
-#include <weft/spatial/surface/surface_topology_3.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace weft::internal {
@@ -39,20 +40,20 @@ public:
   Acute_edges_3(const Piecewise_smooth_complex_3<K>& complex, double largest_angle)
   {
     std::vector<Box_3> boxes;
-    visit_opposite_sides(complex.triangles, [&](std::size_t t, std::size_t other, std::size_t a, std::size_t b) {
-      const double angle = smaller_dihedral(complex, t, other);
-      if (!(angle < largest_angle * radians_per_degree)) return;
-      const auto one = away_from(complex, t, a, b), two = away_from(complex, other, a, b);
-      edges_.push_back({complex.points[a],
-                        complex.points[b],
+    for (const Sheet_pair_3& pair : sheet_pairs_3(complex, largest_angle * radians_per_degree)) {
+      const Point &a = complex.points[pair.source], &b = complex.points[pair.target];
+      const auto &one = pair.away[0], &two = pair.away[1];
+      edges_.push_back({a,
+                        b,
                         unit(minus(one, two)),
-                        {{one[0] + two[0], one[1] + two[1], one[2] + two[2]}},
-                        reach_at(angle)});
+                        unit({{one[0] + two[0], one[1] + two[1], one[2] + two[2]}}),
+                        pair.angle,
+                        reach_at(pair.angle),
+                        {{complex.patches[pair.triangles[0]], complex.patches[pair.triangles[1]]}}});
       largest_reach_ = (std::max)(largest_reach_, edges_.back().reach);
       boxes.emplace_back();
-      for (const std::size_t v : {a, b})
-        boxes.back().add(complex.points[v].x(), complex.points[v].y(), complex.points[v].z());
-    });
+      for (const Point* p : {&a, &b}) boxes.back().add(p->x(), p->y(), p->z());
+    }
     boxes_ = Box_hierarchy_3(boxes);
   }
 
@@ -65,6 +66,17 @@ public:
     bool found = false;
     visit_near(center, radius, [&](const Edge&, const Point&, double) { return found = true; });
     return found;
+  }
+
+  /// The smallest angle of such edges, in degrees; 180 if there is none.
+  double angle_near(const Point& center, double radius) const
+  {
+    double smallest = 180;
+    visit_near(center, radius, [&](const Edge& edge, const Point&, double) {
+      smallest = (std::min)(smallest, edge.angle / radians_per_degree);
+      return false;
+    });
+    return smallest;
   }
 
   /// The mirror image of `p` in the plane that bisects the acute edge nearest to `center`, if the ball mixes up the
@@ -85,8 +97,44 @@ public:
       return false;
     });
     if (height == 0) return false;
-    image = Point(p.x() - 2 * height * normal[0], p.y() - 2 * height * normal[1], p.z() - 2 * height * normal[2]);
+    image = mirrored(p, height, normal);
     return true;
+  }
+
+  /// Calls `visit(image)` for the mirror images of a point of the surface in the planes that bisect acute
+  /// edges of whose sheets one holds it, as far as they are nearer to it than `spacing`. Of the edges of two patches
+  /// the nearest one counts. Edges from 40 degrees on don't: three of them at a narrow tip would fill it with images of
+  /// images.
+  /// \param patch that the point lies on; -1: on a crease or a feature vertex.
+  template <class Visit>
+  void visit_images(const Point& p, int patch, double spacing, const Visit& visit) const
+  {
+    struct Image
+    {
+      double distance; ///< of the edge
+      std::size_t edge;
+      Point point;
+    };
+    std::vector<Image> images;
+    visit_near(p, spacing, [&](const Edge& edge, const Point& foot, double distance) {
+      const Xyz_3 to = difference(p, foot);
+      const double height = dot_product(to, edge.normal), depth = dot_product(to, edge.inward);
+      const double half = 0.5 * edge.angle, angle = std::atan2(std::abs(height), depth);
+      const bool is_on_sheet = angle > 0.5 * half && angle < 1.5 * half;
+      if (edge.angle < largest_mirrored * radians_per_degree && is_on_sheet && 2 * std::abs(height) < spacing &&
+          std::abs(height) > 1e-9 * spacing && (patch < 0 || patch == edge.patches[0] || patch == edge.patches[1]))
+        images.push_back({distance, static_cast<std::size_t>(&edge - edges_.data()), mirrored(p, height, edge.normal)});
+      return false;
+    });
+    std::sort(images.begin(), images.end(), [](const Image& a, const Image& b) {
+      return std::tie(a.distance, a.edge) < std::tie(b.distance, b.edge);
+    });
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const auto& patches = edges_[images[i].edge].patches;
+      const bool is_first = std::none_of(images.begin(), images.begin() + static_cast<std::ptrdiff_t>(i),
+                                         [&](const Image& j) { return edges_[j.edge].patches == patches; });
+      if (is_first) visit(images[i].point);
+    }
   }
 
   /// Moves `p`, the center of a ball, to the nearest point of an acute edge if that is near: within 0.27 radii of one
@@ -111,8 +159,16 @@ private:
     Point source, target;
     Xyz_3 normal; ///< of the plane that bisects its angle
     Xyz_3 inward; ///< in that plane, away from the edge, between its sides
+    double angle; ///< radians
     double reach;
+    std::array<int, 2> patches;
   };
+
+  /// The mirror image of a point that lies so high above a plane.
+  static Point mirrored(const Point& p, double height, const Xyz_3& normal)
+  {
+    return Point(p.x() - 2 * height * normal[0], p.y() - 2 * height * normal[1], p.z() - 2 * height * normal[2]);
+  }
 
   /// Calls `visit(edge, its nearest point, distance)` for the edges that a ball mixes up the sides of, until it returns
   /// true.
@@ -141,26 +197,7 @@ private:
   }
 
   /// At a distance of d the sides are about d times the angle apart; a ball of half of that can't mix them up.
-  static double reach_at(double angle) { return 1 + 2 / (std::max)(angle, 0.01); }
-
-  static double smaller_dihedral(const Piecewise_smooth_complex_3<K>& complex, std::size_t t, std::size_t u)
-  {
-    const auto m = normal(complex, t), n = normal(complex, u);
-    const double sine = norm(cross_product(m, n)), cosine = dot_product(m, n);
-    return std::atan2(sine, -cosine);
-  }
-
-  /// Unit vector in a triangle away from its side ab.
-  static Xyz_3 away_from(const Piecewise_smooth_complex_3<K>& complex, std::size_t t, std::size_t a, std::size_t b)
-  {
-    const auto along = unit(difference(complex.points[b], complex.points[a]));
-    auto away = Xyz_3{};
-    for (const std::size_t v : complex.triangles[t])
-      if (v != a && v != b) away = difference(complex.points[v], complex.points[a]);
-    const double shift = dot_product(away, along);
-    for (std::size_t i = 0; i < 3; ++i) away[i] -= shift * along[i];
-    return unit(away);
-  }
+  static double reach_at(double angle) { return 1 + 2 / (std::max)(angle, 1e-4); }
 
   static Xyz_3 unit(const Xyz_3& a)
   {
@@ -168,13 +205,7 @@ private:
     return length > 0 ? Xyz_3{{a[0] / length, a[1] / length, a[2] / length}} : a;
   }
 
-  static Xyz_3 normal(const Piecewise_smooth_complex_3<K>& complex, std::size_t t)
-  {
-    const auto& v = complex.triangles[t];
-    const auto origin = xyz(complex.points[v[0]]);
-    const auto n = cross_product(minus(xyz(complex.points[v[1]]), origin), minus(xyz(complex.points[v[2]]), origin));
-    return unit(n); // squared again below: tiny surfaces would underflow
-  }
+  static constexpr double largest_mirrored = 40; ///< degrees; at larger angles refinement ends without twins
 
   std::vector<Edge> edges_;
   double largest_reach_ = 0;

@@ -64,6 +64,9 @@ public:
     return chains_[static_cast<std::size_t>(crease)].nearest(p);
   }
 
+  /// Nearest point of all creases, and its crease, which is left as it is if there are none.
+  Point project(const Point& p, int& crease) const { return segments_.nearest(p, crease); }
+
   /// Appends the points where creases cross a convex polygon in the plane that bisects a and b, such as the Voronoi
   /// facet of the Delaunay edge ab. Exact predicates decide which crease edges cross the plane, and a crease vertex on
   /// the plane is one crossing or none; whether the point is in the polygon, whose vertices are rounded, isn't exact.

@@ -179,6 +179,7 @@ protected:
 
   /// Takes points of the boundary, by patch and connected part, that are known otherwise.
   void set_seeds(std::vector<std::vector<std::vector<Point>>> seeds) { seeds_ = std::move(seeds); }
+  const std::vector<std::vector<std::vector<Point>>>& seeds() const { return seeds_; }
   /// Adds some, each a part of its own.
   void add_seeds(const std::vector<Surface_hit_3<K>>& more)
   {

@@ -21,7 +21,7 @@ struct Subdomain_shape_3
 {
   double volume = 0;
   double area = 0;     ///< of its boundary
-  long components = 0; ///< connected components of its boundary
+  long components = 0; ///< connected components of its boundary; -1 if that isn't known
   long euler = 0;      ///< V - E + F of its boundary: twice the components less the handles, where it is a 2-manifold
 };
 

@@ -13,16 +13,13 @@
 #define WEFT_SPATIAL_DOMAIN_LABEL_IMAGE_3_H
 
 #include <weft/errors.h>
-#include <weft/spatial/domain/Labelled_oracle_3.h>
-
-#include <CGAL/Bbox_3.h>
+#include <weft/spatial/domain/Image_oracle_3.h>
+#include <weft/spatial/domain/Voxel_image_3.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -31,25 +28,19 @@
 namespace weft {
 
 /// Labels of voxels. Copies share them.
-class Label_image_3
+class Label_image_3 final : public Voxel_image_3
 {
 public:
   /// \param size number of voxels along x, y, z.
   /// \param spacing of their centers, in the input's units.
   /// \param origin center of the first voxel.
   /// \param values of the voxels, x running fastest; 0 is outside. Other values are numbered 1, 2, ... in rising order.
-  /// \throws Domain_error if sizes don't fit, spacings aren't positive or there is nothing but 0.
+  /// \throws Domain_error if sizes don't fit, spacings aren't positive, there is nothing but 0, or more values than
+  ///   labels may be.
   Label_image_3(const std::array<std::size_t, 3>& size, const std::array<double, 3>& spacing,
                 const std::array<double, 3>& origin, const std::vector<int>& values)
-      : size_(size), spacing_(spacing), origin_(origin)
+      : Voxel_image_3(size, spacing, origin, values.size())
   {
-    if (size[0] == 0 || size[1] == 0 || size[2] == 0 || values.size() / size[0] / size[1] != size[2] ||
-        values.size() != size[0] * size[1] * size[2])
-      throw Domain_error("the image has " + std::to_string(values.size()) + " values, not " + std::to_string(size[0]) +
-                             " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]),
-                         {}, {});
-    for (const double s : spacing)
-      if (!(s > 0) || !std::isfinite(s)) throw Domain_error("the spacing of the voxels must be positive", {}, {});
     number_labels(values);
     auto labels = std::make_shared<std::vector<std::uint16_t>>();
     labels->reserve(values.size());
@@ -59,46 +50,60 @@ public:
     labels_ = std::move(labels);
   }
 
-  const std::array<std::size_t, 3>& size() const { return size_; }
-  const std::array<double, 3>& spacing() const { return spacing_; }
-
-  int number_of_labels() const { return static_cast<int>(values_.size()); }
+  int number_of_labels() const override { return static_cast<int>(values_.size()); }
   /// The value that voxels of a label have in the image.
   int value(int label) const { return values_[static_cast<std::size_t>(label)]; }
-
-  /// Contains all voxels.
-  CGAL::Bbox_3 bbox() const
+  /// The label of voxels with a value; -1 if there are none.
+  int label_of_value(int value) const
   {
-    std::array<double, 3> low, high;
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = origin_[k] - 0.5 * spacing_[k];
-      high[k] = origin_[k] + (static_cast<double>(size_[k]) - 0.5) * spacing_[k];
-    }
-    return CGAL::Bbox_3(low[0], low[1], low[2], high[0], high[1], high[2]);
+    if (value == 0) return 0;
+    const auto found = std::lower_bound(values_.begin() + 1, values_.end(), value);
+    return found != values_.end() && *found == value ? static_cast<int>(found - values_.begin()) : -1;
   }
 
+  int label(const Voxel& v) const override { return (*labels_)[index(v)]; }
+
   /// The label at a point; 0 outside of the image. Ties go to the smaller label.
-  template <class Point>
-  int operator()(const Point& p) const
+  int label_at(const std::array<double, 3>& p) const override
   {
-    std::array<std::ptrdiff_t, 3> cell;
+    std::array<std::size_t, 8> corners;
     std::array<double, 3> t;
-    const std::array<double, 3> x{{p.x(), p.y(), p.z()}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double at = (x[k] - origin_[k]) / spacing_[k];
-      if (!(at > -1 && at < static_cast<double>(size_[k]))) return 0;
-      const double floor = std::floor(at);
-      cell[k] = static_cast<std::ptrdiff_t>(floor);
-      t[k] = at - floor;
-    }
+    if (!locate(p, corners, t)) return 0;
     std::array<int, 8> labels;
     bool all_same = true;
-    for (int i = 0; i < 8; ++i) {
-      labels[static_cast<std::size_t>(i)] = voxel(cell[0] + (i & 1), cell[1] + (i >> 1 & 1), cell[2] + (i >> 2));
-      all_same = all_same && labels[static_cast<std::size_t>(i)] == labels[0];
+    for (std::size_t i = 0; i < 8; ++i) {
+      labels[i] = (*labels_)[corners[i]];
+      all_same = all_same && labels[i] == labels[0];
     }
     return all_same ? labels[0] : winner(labels, t);
   }
+
+  double crossing(const Voxel&, const Voxel&) const override { return 0.5; }
+  bool follows_labels() const override { return true; }
+
+  int label_across(const std::array<Voxel, 4>& square) const override
+  {
+    const int a = label(square[0]), b = label(square[1]), c = label(square[2]), d = label(square[3]);
+    return a == c ? (b == d ? -1 : a) : b == d ? b : -1;
+  }
+
+  /// The label with the largest weight between eight voxels, the smaller one of two.
+  /// \param t how far along x, y and z the point is from the first voxel to the last.
+  static int winner(const std::array<int, 8>& labels, const std::array<double, 3>& t)
+  {
+    int best = 0;
+    double most = -1;
+    for (const int label : labels) {
+      double sum = 0;
+      for (std::size_t i = 0; i < 8; ++i)
+        if (labels[i] == label) sum += weight(i, t);
+      if (sum > most || (sum == most && label < best)) best = label, most = sum;
+    }
+    return best;
+  }
+
+  /// More values than that aren't labels.
+  static constexpr std::size_t most_labels = 255;
 
 private:
   void number_labels(const std::vector<int>& values)
@@ -115,46 +120,15 @@ private:
     values_.insert(values_.begin(), 0);
   }
 
-  int voxel(std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t z) const
-  {
-    const auto within = [](std::ptrdiff_t i, std::size_t n) { return i >= 0 && i < static_cast<std::ptrdiff_t>(n); };
-    if (!within(x, size_[0]) || !within(y, size_[1]) || !within(z, size_[2])) return 0;
-    return (*labels_)[(static_cast<std::size_t>(z) * size_[1] + static_cast<std::size_t>(y)) * size_[0] +
-                      static_cast<std::size_t>(x)];
-  }
-
-  static int winner(const std::array<int, 8>& labels, const std::array<double, 3>& t)
-  {
-    int best = 0;
-    double most = -1;
-    for (const int label : labels) {
-      double weight = 0;
-      for (std::size_t i = 0; i < 8; ++i)
-        if (labels[i] == label)
-          weight += (i & 1 ? t[0] : 1 - t[0]) * (i & 2 ? t[1] : 1 - t[1]) * (i & 4 ? t[2] : 1 - t[2]);
-      if (weight > most || (weight == most && label < best)) best = label, most = weight;
-    }
-    return best;
-  }
-
-  static constexpr std::size_t most_labels = 255;
-
-  std::array<std::size_t, 3> size_;
-  std::array<double, 3> spacing_, origin_;
   std::vector<int> values_; ///< by label; 0 first
   std::shared_ptr<const std::vector<std::uint16_t>> labels_;
 };
 
-/// The domain oracle of an image. Its boundary is looked for from voxel to voxel, up to 160 along the longest side.
+/// The domain oracle of an image, which it keeps a copy of.
 template <class K>
-Labelled_oracle_3<K, Label_image_3> image_oracle_3(const Label_image_3& image)
+Image_oracle_3<K> image_oracle_3(const Label_image_3& image)
 {
-  const CGAL::Bbox_3 b = image.bbox();
-  const double longest = (std::max)({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
-  const auto& s = image.spacing();
-  const double voxels = std::ceil(longest / (std::min)({s[0], s[1], s[2]}));
-  return Labelled_oracle_3<K, Label_image_3>(image, b, image.number_of_labels(),
-                                             static_cast<int>((std::min)(160., (std::max)(2., voxels))));
+  return Image_oracle_3<K>(std::make_shared<const Label_image_3>(image));
 }
 
 } // namespace weft

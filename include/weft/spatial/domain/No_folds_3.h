@@ -7,6 +7,7 @@
 #define WEFT_SPATIAL_DOMAIN_NO_FOLDS_3_H
 
 #include <weft/spatial/domain/oracle_hits_3.h>
+#include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 namespace weft {
 
@@ -27,6 +28,14 @@ public:
   bool is_at_acute_edge(const Point&, double) const { return false; }
   bool mirror_at_acute_edge(const Point&, const Point&, double, Surface_hit_3<K>&) const { return false; }
   bool attract_to_acute_edge(Point&, double) const { return false; }
+  double acute_angle_at(const Point&, double) const { return 180; }
+  bool has_mirror_images() const { return false; }
+  template <class Visit>
+  void visit_creases_at_small_angles(int, const Visit&) const
+  {}
+  template <class Visit>
+  void visit_mirror_images(const Point&, const Vertex_location_3&, double, const Visit&) const
+  {}
 };
 
 } // namespace weft

@@ -5,6 +5,7 @@
 #ifndef WEFT_SPATIAL_DOMAIN_BOUNDARY_SAMPLES_3_H
 #define WEFT_SPATIAL_DOMAIN_BOUNDARY_SAMPLES_3_H
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -39,8 +40,9 @@ inline double boundary_tolerance(double approximation)
 
 /// Calls `visit(point, patch, normal)` for points of the boundary of a domain that have no facet of their patch within
 /// their tolerance that looks the same way, nor any within a tenth of it: surfaces may have folds as small as that.
-/// Points are the oracle's own samples, no farther apart than `spacing`, where
-/// it has them, else seeds of its patches.
+/// Points are the oracle's own samples, no farther apart than `spacing`, where it has them, else seeds of its patches.
+/// Those may lie on sharp edges that nobody gave as creases, which meshes round off: four times the spacing is near
+/// enough for them.
 /// \param distance a Boundary_distance_3 of facets.
 /// \param approximation called with a point and its patch, returns the approximation bound there, 0 if there is none.
 /// \returns how many points were looked at.
@@ -51,15 +53,17 @@ std::size_t visit_missed_samples(const Oracle& oracle, const Distance& distance,
   using Point = typename Oracle::Point;
   constexpr std::array<double, 3> none{};
   std::size_t samples = 0;
+  constexpr bool has_own = Has_boundary_samples_3<Oracle>::value;
   const auto look = [&](const Point& p, int patch, const std::array<double, 3>& normal) {
     ++samples;
-    const double tolerance = boundary_tolerance(approximation(p, patch));
+    double tolerance = boundary_tolerance(approximation(p, patch));
+    if (!has_own) tolerance = (std::max)(tolerance, 4 * spacing);
     const bool is_met = std::isfinite(tolerance) ? distance.has_facet_within(p, patch, 0.1 * tolerance) ||
                                                        distance.has_facet_within(p, patch, tolerance, normal)
                                                  : distance.has_facets(patch);
     if (!is_met) visit(p, patch, normal);
   };
-  if constexpr (Has_boundary_samples_3<Oracle>::value) {
+  if constexpr (has_own) {
     static_cast<void>(none);
     oracle.visit_samples(spacing, look);
   } else {

@@ -8,6 +8,7 @@
 #define WEFT_SPATIAL_OPTIMISE_PERTURBATION_JUDGE_3_H
 
 #include <weft/spatial/criteria/Criteria_guard_3.h>
+#include <weft/spatial/criteria/forced_elements_3.h>
 #include <weft/spatial/mesh/circumcenter_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>
@@ -49,10 +50,32 @@ public:
   /// \param guard has to live as long as this object.
   Perturbation_judge_3(const Restricted& mesh, Criteria_guard_3<Restricted>& guard) : mesh_(&mesh), guard_(guard) {}
 
-  static double measure(Cell_handle c) { return sliver_measure(cosines_of_cell(c)); }
+  double measure(Cell_handle c) const { return sliver_measure(cosines(c)); }
+
+  /// The extreme dihedral angles of a cell that has its circumcenter, as `relative()` has them.
+  Dihedral_cosines_3 cosines(Cell_handle c) const
+  {
+    const Dihedral_cosines_3 x = cosines_of_cell(c);
+    if (!may_be_forced(x)) return x;
+    return relative(x, forcing_angle(mesh_->oracle(),
+                                     {{c->vertex(0)->location(), c->vertex(1)->location(), c->vertex(2)->location(),
+                                       c->vertex(3)->location()}},
+                                     c->circumcenter(), c->vertex(0)->point()));
+  }
+
+  /// Whether a cell between sheets at a small angle is to stay: none of its vertices may move.
+  bool is_locked(Cell_handle c) const
+  {
+    for (int i = 0; i < 4; ++i)
+      if (!mesh_->is_fixed(c->vertex(i))) return false;
+    return is_about_angles_;
+  }
 
   /// No move may make an angle smaller than the one with this cosine.
   void set_floor(double cosine) { floor_ = cosine; }
+
+  /// \param location of the points that are judged next.
+  void set_location(const Vertex_location_3& location) { location_ = location; }
 
   /// \param filling the cells that fill the place of a vertex that was taken away; none for an insertion.
   void set_filling(const std::vector<Cell_handle>& filling)
@@ -62,7 +85,7 @@ public:
       Filler f{c, -1, -1, false, true};
       if (!Restricted::is_at_box(c)) {
         c->set_circumcenter(circumcenter_of_cell_3<Kernel>(c));
-        const Dihedral_cosines_3 x = cosines_of_cell(c);
+        const Dihedral_cosines_3 x = cosines(c);
         f = {c, sliver_measure(x), x.smallest, false, false};
       }
       filling_.push_back(f);
@@ -94,13 +117,15 @@ public:
       return worst >= limit;
     };
     for (Filler& f : filling_)
-      if (f.cell->id() != -stamp_ && f.measure > worst && is_inside(f) && exceeds(cosines_of_cell(f.cell)))
-        return no_good;
+      if (f.cell->id() != -stamp_ && f.measure > worst && is_inside(f) && exceeds(cosines(f.cell))) return no_good;
     for (const auto& facet : zone_.hull) {
       std::array<Point, 4> p;
       if (!corners(facet, p)) continue;
-      const Dihedral_cosines_3 x = cosines_of_extreme_dihedrals(p[0], p[1], p[2], p[3]);
-      if (sliver_measure(x) <= worst || !is_inside(circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]))) continue;
+      Dihedral_cosines_3 x = cosines_of_extreme_dihedrals(p[0], p[1], p[2], p[3]);
+      if (sliver_measure(x) <= worst) continue;
+      const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
+      if (may_be_forced(x)) x = relative(x, forcing_angle(mesh_->oracle(), locations(facet), o, p[0]));
+      if (sliver_measure(x) <= worst || !is_inside(o)) continue;
       if (exceeds(x)) return no_good;
     }
     return worst;
@@ -152,6 +177,31 @@ public:
   void forget(int id) { guard_.forget(id); }
 
 private:
+  bool may_be_forced(const Dihedral_cosines_3& x) const { return is_about_angles_ && x.smallest > wanted_cosine_; }
+
+  /// The dihedral angles of a cell that fills the wedge at an edge of the input in proportion to those wanted there:
+  /// the perturber leaves a cell alone that has a good part of the angle.
+  static Dihedral_cosines_3 relative(const Dihedral_cosines_3& x, double forcing_angle)
+  {
+    if (forcing_angle > largest_forcing_angle) return x;
+    const double attainable = (std::max)((std::min)(part_of_angle * forcing_angle, wanted), least_part * forcing_angle);
+    const double degrees = degrees_of_cosine(x.smallest);
+    return {degrees >= attainable ? -1. : cosine_of_degrees(degrees * wanted / attainable), x.largest};
+  }
+
+  std::array<Vertex_location_3, 4> locations(const typename Restricted::Facet& facet) const
+  {
+    std::array<Vertex_location_3, 4> result;
+    for (int k = 0; k < 4; ++k)
+      result[static_cast<std::size_t>(k)] = k == facet.second ? location_ : facet.first->vertex(k)->location();
+    return result;
+  }
+
+  static constexpr double wanted = 20; ///< degrees: what is asked for where nothing forces less
+  /// Parts of the angle of an edge: what is attained beside it, and what is asked for where that is more than `wanted`.
+  static constexpr double part_of_angle = 0.8, least_part = 0.62;
+  static constexpr double largest_forcing_angle = 40; ///< degrees
+
   /// A cell that fills the place of a vertex taken away.
   struct Filler
   {
@@ -191,6 +241,9 @@ private:
 
   const Restricted* mesh_;
   Criteria_guard_3<Restricted>& guard_;
+  bool is_about_angles_ = mesh_->oracle().has_mirror_images();
+  double wanted_cosine_ = cosine_of_degrees(least_part * largest_forcing_angle);
+  Vertex_location_3 location_{3, 0};
   std::vector<Filler> filling_;
   Zone zone_;
   double floor_ = 1;

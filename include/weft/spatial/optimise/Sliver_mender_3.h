@@ -60,6 +60,7 @@ public:
   {}
 
   Perturber& perturber() { return perturber_; }
+  const Perturber& perturber() const { return perturber_; }
 
   /// Cells that measure more are slivers.
   void set_bound(double measure)
@@ -121,7 +122,7 @@ public:
 private:
   bool is_sliver(Cell_handle c) const
   {
-    const Dihedral_cosines_3 x = cosines_of_cell(c);
+    const Dihedral_cosines_3 x = perturber_.judge().cosines(c);
     return sliver_measure(x) > bound_ || x.smallest > floor_;
   }
 
@@ -238,7 +239,7 @@ private:
   void note_new_slivers()
   {
     for (const Cell_handle c : mesh_.new_cells())
-      if (c->subdomain() != 0 && is_sliver(c)) pending_.push_back(sliver_of(c, Judge::measure(c)));
+      if (c->subdomain() != 0 && is_sliver(c)) pending_.push_back(sliver_of(c, perturber_.judge().measure(c)));
   }
 
   /// Whether a few moves, the worst sliver first, leave none of those that a kick has made, nor the one it is for.

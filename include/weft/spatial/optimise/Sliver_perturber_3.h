@@ -29,7 +29,7 @@ public:
   using Vertex_handle = typename Restricted::Vertex_handle;
 
   Sliver_perturber_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Perturb_options_3& options)
-      : mesh_(mesh), options_(options), mender_(mesh, guard, options, report_, timer_)
+      : mesh_(mesh), guard_(guard), options_(options), mender_(mesh, guard, options, report_, timer_)
   {}
 
   Perturb_report_3 run()
@@ -63,6 +63,8 @@ private:
     }
   };
 
+  const Judge& judge() const { return mender_.perturber().judge(); }
+
   bool goes_on()
   {
     return !mender_.is_late() && report_.after < options_.target && (!options_.go_on || options_.go_on(report_.after));
@@ -76,8 +78,8 @@ private:
     double smallest = -1;
     std::vector<std::pair<double, Cell_handle>> cells;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (c->subdomain() == 0) continue;
-      const Dihedral_cosines_3 x = cosines_of_cell(c);
+      if (c->subdomain() == 0 || judge().is_locked(c)) continue;
+      const Dihedral_cosines_3 x = judge().cosines(c);
       smallest = (std::max)(smallest, x.smallest);
       if (most > 0 && sliver_measure(x) > target) cells.emplace_back(sliver_measure(x), c);
     }
@@ -123,13 +125,20 @@ private:
     return moved;
   }
 
+  /// Where criteria can't hold, cells that violate them are tried once: no bound makes them easier to mend, and there
+  /// may be thousands.
+  bool is_given_up(Cell_handle c) const
+  {
+    return !options_.mend_worst && report_.passes > 1 && guard_.measure().cell(c).is_bad();
+  }
+
   std::vector<Candidate> list_candidates() const
   {
     std::vector<Candidate> all(mesh_.vertices().size());
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (c->subdomain() == 0) continue;
-      const double x = Judge::measure(c);
-      if (x <= mender_.bound()) continue;
+      if (c->subdomain() == 0 || judge().is_locked(c)) continue;
+      const double x = judge().measure(c);
+      if (x <= mender_.bound() || is_given_up(c)) continue;
       for (int i = 0; i < 4; ++i) {
         const Vertex_handle v = c->vertex(i);
         Candidate& candidate = all[static_cast<std::size_t>(v->id())];
@@ -148,9 +157,9 @@ private:
   {
     std::vector<Sliver_3> slivers;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
-      if (c->subdomain() == 0) continue;
-      const double x = Judge::measure(c);
-      if (x > mender_.bound()) slivers.push_back(Mender::sliver_of(c, x));
+      if (c->subdomain() == 0 || judge().is_locked(c)) continue;
+      const double x = judge().measure(c);
+      if (x > mender_.bound() && !is_given_up(c)) slivers.push_back(Mender::sliver_of(c, x));
     }
     std::sort(slivers.begin(), slivers.end());
     std::size_t inserted = 0;
@@ -208,6 +217,7 @@ private:
   static constexpr std::size_t very_worst = 3; ///< these are worked on ever harder
 
   Restricted& mesh_;
+  const Criteria_guard_3<Restricted>& guard_;
   const Perturb_options_3& options_;
   Timer timer_;
   Perturb_report_3 report_;

@@ -58,6 +58,7 @@ public:
   {}
 
   Judge& judge() { return judge_; }
+  const Judge& judge() const { return judge_; }
 
   /// Cells that measure more are slivers.
   void set_bound(double bound) { bound_ = bound; }
@@ -103,6 +104,7 @@ public:
     target_.most = Judge::no_good;
     ++report_.tried_vertices;
     Transaction change(mesh_, v);
+    judge_.set_location(target_.location);
     take_filling(change);
     const bool at_random = purpose == Purpose::shake || purpose == Purpose::kick;
     for (const Place& place : search_.places_for_move(target_, change.origin(), trials, at_random)) {
@@ -132,12 +134,13 @@ public:
     judge_.set_filling({});
     target_.near = c;
     target_.most = target_.enough = most;
-    target_.limit = (std::max)(Judge::measure(c) - Judge::least_gain, most);
+    target_.limit = (std::max)(judge_.measure(c) - Judge::least_gain, most);
     target_.reach = std::sqrt(shortest_squared_edge(c));
     std::vector<Vertex_location_3> locations = locations_around(c);
     if (!anywhere) locations = {locations[search_.draw(locations.size())]};
     for (const Vertex_location_3& location : locations) {
       target_.location = location;
+      judge_.set_location(location);
       const int share = trials / static_cast<int>(locations.size());
       for (const Place& place : search_.places_for_insertion(target_, center, share)) {
         if (!judge_.find_zone(place.point, target_.near)) continue;
@@ -214,7 +217,7 @@ private:
       for (int i = 0; i < 4; ++i)
         if (c->vertex(i) != v)
           shortest = (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(v->point(), c->vertex(i)->point())));
-      const double x = Judge::measure(c);
+      const double x = judge_.measure(c);
       target_.limit = (std::max)(target_.limit, x);
       if (x > bound_) add_gradients(c, c->index(v));
     }

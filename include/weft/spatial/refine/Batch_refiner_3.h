@@ -230,13 +230,20 @@ private:
 
   void insert_chosen()
   {
-    batch_.insert([this](const std::vector<Cell_handle>& cells) {
+    const auto forget = [this](const std::vector<Cell_handle>& cells) {
       for (const Cell_handle c : cells) {
         bad_.forget(c);
         for (int i = 0; i < 4; ++i)
           if (const Restricted_facet* f = mesh_.facet(c, i)) disks_.set_undecided(*f);
       }
-    });
+    };
+    batch_.insert(forget);
+    add_new_elements();
+    batch_.insert_twins(forget, [this] { add_new_elements(); });
+  }
+
+  void add_new_elements()
+  {
     disks_.add_new_vertices();
     for (const Cell_handle c : mesh_.new_cells()) bad_.add_cell(c);
     for (const int record : mesh_.new_facets()) {

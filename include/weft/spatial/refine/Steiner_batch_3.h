@@ -8,6 +8,7 @@
 
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/refine/crease_steiner_point_3.h>
+#include <weft/spatial/refine/Mirror_twins_3.h>
 #include <weft/spatial/refine/Steiner_chooser_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
@@ -17,6 +18,7 @@
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -46,7 +48,7 @@ public:
 
   /// \param squared_floor no point is accepted closer than that to a vertex, but for the topology.
   Steiner_batch_3(Restricted& mesh, const Measure& measure, double squared_floor)
-      : mesh_(mesh), squared_floor_(squared_floor), chooser_(mesh, measure, squared_floor)
+      : mesh_(mesh), squared_floor_(squared_floor), chooser_(mesh, measure, squared_floor), twins_(mesh)
   {}
 
   /// Begins a batch of at most `room` points.
@@ -140,10 +142,26 @@ public:
     std::vector<Point> points;
     for (std::size_t k = 0; k < used_; ++k) points.push_back(chosen_[k].zone.point);
     for (const std::size_t k : order_along_curve_3<Kernel>(points)) {
+      if (has_twins_) twins_.add(points[k], chosen_[k].location, std::sqrt(chooser_.nearest_in(chosen_[k].zone)));
       before(chosen_[k].zone.cells);
       mesh_.insert(chosen_[k].zone, chosen_[k].location);
     }
     mesh_.update();
+  }
+
+  /// Inserts the twins of what was inserted last, see Mirror_twins_3.h, one by one.
+  /// \param before as above.
+  /// \param after called after each.
+  template <class Before, class After>
+  void insert_twins(const Before& before, const After& after)
+  {
+    if (!has_twins_) return;
+    twins_.insert(room_ - used_, [&](const Zone& zone, const Vertex_location_3& location) {
+      before(zone.cells);
+      mesh_.insert(zone, location);
+      mesh_.update();
+      after();
+    });
   }
 
   std::size_t candidates() const { return candidates_; }
@@ -169,6 +187,8 @@ private:
   Restricted& mesh_;
   double squared_floor_;
   Chooser chooser_;
+  Mirror_twins_3<Restricted> twins_;
+  bool has_twins_ = mesh_.oracle().has_mirror_images();
   std::vector<Chosen> chosen_; ///< the first `used_` are those of the batch
   std::size_t used_ = 0, room_ = 0;
   int number_ = 0;

@@ -102,10 +102,16 @@ public:
   }
 
   /// Makes a vertex stay where it is: neither smoothing nor perturbation nor coarsening touch it from now on.
-  void fix(Vertex_handle v)
+  void fix(Vertex_handle v) { set_fixed(v, fixed_for_good); }
+  /// The same because of a twin beside a small angle of the boundary; it may move within rounding.
+  void fix_with_twin(Vertex_handle v)
   {
-    if (fixed_.size() < vertices_.size()) fixed_.resize(vertices_.size(), false);
-    fixed_[static_cast<std::size_t>(v->id())] = true;
+    if (!is_fixed(v)) set_fixed(v, fixed_with_twin);
+  }
+  bool is_fixed_with_twin(Vertex_handle v) const
+  {
+    const auto id = static_cast<std::size_t>(v->id());
+    return v->id() >= 0 && id < fixed_.size() && fixed_[id] == fixed_with_twin;
   }
   /// Whether a vertex must stay: a feature vertex, or one that was fixed.
   bool is_fixed(Vertex_handle v) const
@@ -242,6 +248,14 @@ private:
   friend class internal::Vertex_transaction_3<Restricted_delaunay_3>;
   friend class internal::Vacant_numbers_3<Restricted_delaunay_3>;
   friend class internal::Mesh_relocation_3<Restricted_delaunay_3>;
+
+  static constexpr char fixed_for_good = 1, fixed_with_twin = 2;
+
+  void set_fixed(Vertex_handle v, char how)
+  {
+    if (fixed_.size() < vertices_.size()) fixed_.resize(vertices_.size(), false);
+    fixed_[static_cast<std::size_t>(v->id())] = how;
+  }
 
   void insert_box()
   {

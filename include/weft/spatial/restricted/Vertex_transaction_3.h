@@ -274,7 +274,7 @@ private:
       vertices[k] = vertices.back();
       vertices[k]->set_id(id_);
       touched[k] = touched.back();
-      if (k < fixed.size()) fixed[k] = vertices.size() <= fixed.size() && fixed[vertices.size() - 1];
+      if (k < fixed.size()) fixed[k] = vertices.size() <= fixed.size() ? fixed[vertices.size() - 1] : char(0);
       mesh_.tracer_.renumber();
     }
     vertices.pop_back();

@@ -10,6 +10,7 @@
 #include <weft/report.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
+#include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -43,6 +44,8 @@ struct Oracle_arguments_3
   {
     void operator()(const Point&, bool) const;
     void operator()(const Point&, const Point&, bool) const;
+    void operator()(const Point&, const Vertex_location_3&) const;
+    void operator()(int, double) const;
   };
 
   static const Oracle& o();
@@ -111,6 +114,17 @@ using Mirror_at_acute_edge_of = decltype(Oracle_arguments_3<O>::o().mirror_at_ac
 template <class O>
 using Attract_to_acute_edge_of =
     decltype(Oracle_arguments_3<O>::o().attract_to_acute_edge(Oracle_arguments_3<O>::moved(), 1.));
+
+template <class O>
+using Acute_angle_at_of = decltype(Oracle_arguments_3<O>::o().acute_angle_at(Oracle_arguments_3<O>::p(), 1.));
+template <class O>
+using Has_mirror_images_of = decltype(Oracle_arguments_3<O>::o().has_mirror_images());
+template <class O>
+using Visit_mirror_images_of = decltype(Oracle_arguments_3<O>::o().visit_mirror_images(
+    Oracle_arguments_3<O>::p(), Vertex_location_3{2, 0}, 1., Oracle_arguments_3<O>::visit()));
+template <class O>
+using Visit_creases_at_small_angles_of =
+    decltype(Oracle_arguments_3<O>::o().visit_creases_at_small_angles(0, Oracle_arguments_3<O>::visit()));
 
 /// What a domain oracle answers. `holds` is false where it doesn't; `complain()` says what is missing, and is
 /// instantiated only then, so that nothing else is complained about.
@@ -181,7 +195,9 @@ private:
       has<Point, Project_on_crease_of>,
       has<Feature_incidence_3, Incidence_of>,
       has<bool, Attract_of>&& has<void, Visit_salient_points_of>&& has<void, Visit_ridges_of>&&
-          has<bool, Is_at_acute_edge_of>&& has<bool, Mirror_at_acute_edge_of>&& has<bool, Attract_to_acute_edge_of>};
+          has<bool, Is_at_acute_edge_of>&& has<bool, Mirror_at_acute_edge_of>&& has<bool, Attract_to_acute_edge_of>&&
+              has<double, Acute_angle_at_of>&& has<bool, Has_mirror_images_of>&& has<void, Visit_mirror_images_of>&&
+                  has<void, Visit_creases_at_small_angles_of>};
 
   static constexpr int missing_before(int end)
   {

@@ -16,6 +16,8 @@
 #include <weft/spatial/optimise/coarsen_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
+#include <weft/spatial/optimise/turn_diagonals_3.h>
+#include <weft/spatial/refine/fix_twins_3.h>
 #include <weft/spatial/refine/interior_lattice_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
@@ -101,6 +103,7 @@ public:
   /// The second half; does nothing if the first was stopped.
   void optimise()
   {
+    if (goes_on_) fix_twins(mesh_);
     goes_on_ = goes_on_ && coarsen_and_smooth();
     run_.begin_stage("perturbation", Stage::polishing);
     if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
@@ -149,6 +152,7 @@ private:
     run_.begin_stage("sorting in memory", Stage::polishing);
     sort_in_memory(mesh_);
     report_.refined_smallest_dihedral = smallest_dihedral();
+    if (refinement_.bad_left() > 0 && is_bad_all_over()) return coarsen();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     return !initial_ || refine_to_final_shapes();
   }
@@ -210,13 +214,15 @@ private:
 
   bool visit(std::size_t bad) { return run_.visit(mesh_.vertices().size(), bad); }
 
-  /// Whether nothing is bad.
-  bool is_good() const
+  std::size_t bad_elements() const
   {
     Mesh_report_3 now;
     count_bad_elements(mesh_, criteria_, refinement_.size_floor(), now);
-    return now.bad() == 0;
+    return now.bad();
   }
+  bool is_good() const { return bad_elements() == 0; }
+  /// As a checkerboard is, whose surfaces touch along all edges. No effort mends that.
+  bool is_bad_all_over() const { return !initial_ && 10 * bad_elements() > mesh_.vertices().size(); }
 
   double smallest_dihedral() const
   {
@@ -228,11 +234,17 @@ private:
 
   void perturb()
   {
+    turn_diagonals(mesh_, guard(), options_.seed + 3);
     Perturb_options_3 options;
     options.target = options_.min_dihedral_angle;
     // Where something is bad, the input has angles so small that the worst cells stay, whatever is done about them.
     // Given vertices may be beyond what criteria can mend; their slivers are wanted gone all the same.
     options.mend_worst = initial_ || is_good();
+    if (!options.mend_worst && is_bad_all_over()) {
+      options.step = 8;
+      options.most_passes = 1;
+      options.insertions = 0;
+    }
     options.seed = options_.seed + 2;
     options.time_limit = run_.time_left();
     options.go_on = [this](double) { return visit(0); };

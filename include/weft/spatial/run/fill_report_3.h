@@ -6,6 +6,7 @@
 #define WEFT_SPATIAL_RUN_FILL_REPORT_3_H
 
 #include <weft/report.h>
+#include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/visit_bad_elements_3.h>
 #include <weft/spatial/domain/check_domain_3.h>
@@ -48,6 +49,18 @@ void count_bad_elements(const Restricted& mesh, const Criteria_3<Kernel>& criter
   };
   visit_bad_elements(mesh, criteria, counter(report.bad_edges), counter(report.bad_facets), counter(report.bad_cells),
                      [&](auto) { ++report.bad_vertices; });
+}
+
+/// Counts the elements whose shape the input forces. Linear.
+template <class Restricted, class Kernel>
+void count_forced_elements(const Restricted& mesh, const Criteria_3<Kernel>& criteria, Mesh_report_3& report)
+{
+  if (!mesh.oracle().has_mirror_images()) return;
+  const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+  for (const auto& f : mesh.facets())
+    report.forced_facets += f.cell != typename Restricted::Cell_handle() && measure.has_forced_shape(f);
+  for (const auto c : mesh.triangulation().finite_cell_handles())
+    report.forced_cells += c->subdomain() != 0 && measure.has_forced_shape(c);
 }
 
 template <class Restricted>
@@ -95,6 +108,7 @@ void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteri
   report.facets = mesh.facets.size();
   report.crease_edges = mesh.edges.size();
   count_bad_elements(restricted, criteria, size_floor, report);
+  count_forced_elements(restricted, criteria, report);
   report.bare_patches = count_bare_patches(restricted);
   // Where every vertex has its disk of facets, all of them between inside and outside, the boundary is a manifold.
   const bool clean = report.bad_vertices == 0 && report.bad_facets.disk == 0 && !mesh.cells.empty();

@@ -406,13 +406,14 @@ private:
     record_.left_out = left_out.size();
     const auto sides = regions.sides(is_union);
     Mended_surface_3<K> result;
-    double kept = record_.area_left_out;
+    double kept = record_.area_left_out, outside = 0;
     for (std::size_t t = 0; t < facets_.size(); ++t) {
       auto [behind, before] = sides[t];
       if (behind == before) {
         if (behind == 0 && regions.bounds_nothing(t)) continue;
         ++(behind == 0 ? record_.within_void : record_.within_domain);
         kept += area(facets_[t].corners);
+        if (behind == 0) outside += area(facets_[t].corners);
         continue;
       }
       Corners corners = facets_[t].corners;
@@ -427,6 +428,9 @@ private:
       result.sides.emplace_back(behind, before);
     }
     if (result.surface.triangles.empty()) throw Domain_error("no facet bounds a domain", {}, {});
+    // Where parts overlap, folds are outside; whole parts aren't.
+    if (is_union && outside > 1e-3 * record_.area)
+      throw Domain_error("parts would get lost where facets nearly meet", {}, {});
     // Each point of the surface moves by the tolerance at most.
     if (!(std::abs(kept - check_area_) <= tolerance_ * perimeters_ + 1e-9 * check_area_))
       throw Domain_error("facets would get lost", {}, {});
