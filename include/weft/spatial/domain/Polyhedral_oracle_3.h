@@ -39,6 +39,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <set>
 #include <type_traits>
 #include <utility>
@@ -198,15 +199,16 @@ public:
   /// it is.
   bool attract_to_acute_edge(Point& p, double radius) const { return acute_edges_.attract(p, radius); }
 
-  /// Whether parts of the boundary meet at small angles.
-  bool has_mirror_images() const { return !acute_edges_.empty() || !shells_.empty(); }
+  /// Whether parts of the boundary meet at small angles, or face each other across a narrow gap.
+  bool has_mirror_images() const { return !acute_edges_.empty() || !shells_.empty() || has_gaps_; }
 
   /// Calls `visit(image, where it lies)` for the places where a vertex of the boundary wants a twin: its mirror images
-  /// in the planes that bisect acute edges, and the points of creases that are as far from a feature vertex as the
-  /// vertex, where creases meet at a small angle. Only those nearer to the vertex than `spacing`, its distance to the
-  /// nearest other vertex. An image within a quarter of the distance to the vertex from a crease lies on the crease;
-  /// one as near to a feature vertex isn't needed, and one as far from the boundary doesn't exist. Images are off the
-  /// boundary by up to 1e-11 of its largest coordinate, at random: see `off_symmetry()`.
+  /// in the planes that bisect acute edges, the points that face it across a gap, and the points of creases that are as
+  /// far from a feature vertex as the vertex, where creases meet at a small angle. Only those nearer to the vertex than
+  /// `spacing`, its distance to the nearest other vertex. An image within a quarter of the distance to the vertex from
+  /// a crease lies on the crease; one as near to a feature vertex isn't needed, and one as far from the boundary
+  /// doesn't exist. Images are off the boundary by up to 1e-11 of its largest coordinate, at random: see
+  /// `off_symmetry()`.
   template <class Visit>
   void visit_mirror_images(const Point& p, const Vertex_location_3& at, double spacing, const Visit& visit) const
   {
@@ -219,7 +221,7 @@ public:
         take(image, {1, crease});
       });
     }
-    acute_edges_.visit_images(p, at.dimension == 2 ? at.index : -1, spacing, [&](const Point& image) {
+    const auto take_near = [&](const Point& image) {
       const double near = 0.0625 * CGAL::squared_distance(p, image);
       int corner = -1, crease = -1;
       if (number_of_corners() > 0 && CGAL::squared_distance(corners_.nearest(image, corner), image) < near) return;
@@ -230,7 +232,10 @@ public:
       }
       const Surface_hit_3<K> hit = closest(image);
       if (CGAL::squared_distance(hit.point, image) < near) take(hit.point, {2, hit.patch});
-    });
+    };
+    acute_edges_.visit_images(p, at.dimension == 2 ? at.index : -1, spacing, take_near);
+    if (has_gaps_ && at.dimension == 2)
+      if (const auto facing = facing_point(p, project_on_patch(p, at.index).triangle, spacing)) take_near(*facing);
   }
 
   /// Calls `visit(crease, angle in radians)` for the creases that meet a crease at a small angle.
@@ -363,9 +368,7 @@ public:
   {
     if (normal == std::array<double, 3>()) return reach;
     // The point itself is on the boundary, up to rounding.
-    double largest = 0;
-    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(bbox().min(k)), std::abs(bbox().max(k))});
-    const double least = 16 * std::numeric_limits<double>::epsilon() * largest;
+    const double least = rounding();
     double nearest = reach;
     std::vector<Surface_hit_3<K>> hits;
     for (const double side : {-1., 1.}) {
@@ -389,6 +392,50 @@ private:
   static constexpr double shell_angle = 29; // the same for creases that meet on a patch
 
   using Triangle = internal::Surface_triangle_3<K>;
+
+  /// Unit normal of a triangle between the domain and the outside that points outside; zero for others.
+  std::array<double, 3> outward_normal(int triangle) const
+  {
+    const auto [behind, before] = sides(static_cast<std::size_t>(triangle));
+    return behind != 0 && before != 0 ? std::array<double, 3>() : normal(triangle, behind + before);
+  }
+
+  /// The point nearest to a point of a triangle along its outward normal where the boundary is met again, if it faces
+  /// back there and is as near as `reach`.
+  std::optional<Point> facing_point(const Point& p, int triangle, double reach) const
+  {
+    const std::array<double, 3> out = outward_normal(triangle);
+    const double least = rounding();
+    if (out == std::array<double, 3>() || !(reach > least)) return {};
+    const auto at = [&](double d) { return Point(p.x() + d * out[0], p.y() + d * out[1], p.z() + d * out[2]); };
+    std::vector<Surface_hit_3<K>> hits;
+    surface_.intersect(at(least), at(reach), hits);
+    if (hits.empty()) return {};
+    const std::array<double, 3> back = outward_normal(hits.front().triangle);
+    constexpr double nearly_opposite = -0.9;
+    if (out[0] * back[0] + out[1] * back[1] + out[2] * back[2] > nearly_opposite) return {};
+    return hits.front().point;
+  }
+
+  /// Whether there is a narrow gap that is big enough for a sample.
+  void find_gaps()
+  {
+    const CGAL::Bbox_3 b = bbox();
+    const double extent = std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
+    constexpr std::size_t samples = 1000;
+    constexpr double reach = 0.02; // of the extent
+    visit_spread_points(samples, [&](const Point& p, const auto&, double) {
+      if (!has_gaps_) has_gaps_ = facing_point(p, closest(p).triangle, reach * extent).has_value();
+    });
+  }
+
+  /// Distance within which coordinates can't be told apart.
+  double rounding() const
+  {
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(bbox().min(k)), std::abs(bbox().max(k))});
+    return 16 * std::numeric_limits<double>::epsilon() * largest;
+  }
 
   /// The subdomains behind and before a triangle.
   std::pair<int, int> sides(std::size_t t) const
@@ -458,16 +505,18 @@ private:
     if (!acute_edges_.empty()) {
       for (const auto& pair : internal::sheet_pairs_3(complex_, acute_angle * internal::radians_per_degree))
         is_at_acute_edge[pair.source] = is_at_acute_edge[pair.target] = true;
-      std::vector<internal::Crease_segment_3<K>> corners;
-      for (std::size_t i = 0; i < number_of_corners(); ++i)
-        corners.push_back({corner(i), corner(i), static_cast<int>(i)});
-      corners_ = internal::Segment_hierarchy_3<K>(corners);
     }
     for (const Point& p : complex_.points)
       largest_coordinate_ = (std::max)({largest_coordinate_, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
     shells_ = internal::Crease_shells_3<K>(complex_, [&](std::size_t vertex) {
       return internal::radians_per_degree * (is_at_acute_edge[vertex] ? acute_angle : shell_angle);
     });
+    find_gaps();
+    if (!has_mirror_images()) return;
+    std::vector<internal::Crease_segment_3<K>> corners;
+    for (std::size_t i = 0; i < number_of_corners(); ++i)
+      corners.push_back({corner(i), corner(i), static_cast<int>(i)});
+    corners_ = internal::Segment_hierarchy_3<K>(corners);
   }
 
   template <class Belongs>
@@ -505,6 +554,7 @@ private:
   Crease_network_3<K> creases_;
   internal::Salient_features_3<K> salient_;
   internal::Acute_edges_3<K> acute_edges_;
+  bool has_gaps_ = false; ///< narrow ones outside, between parts of the boundary that face each other
   internal::Crease_shells_3<K> shells_;
   internal::Segment_hierarchy_3<K> corners_; ///< feature vertices as segments; empty without acute edges
   double largest_coordinate_ = 0;
