@@ -39,14 +39,17 @@ using mesh_3_program::Result;
 const std::string before_options =
     "usage: mesh_3 INPUT... [--size [LABEL:]S]... [--approximation [LABEL:]E]... [--facet-shape R] [--cell-shape R]\n"
     "              [--sharp-angle DEG] [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb]\n"
-    "              [--repair] [--iso VALUE] [--inside above|below] [--labels] [--name LABEL:NAME]...\n"
+    "              [--strict] [--weld PART] [--repair] [--iso VALUE] [--inside above|below] [--labels]\n"
+    "              [--name LABEL:NAME]...\n"
     "              [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
     "Fills the domain that a closed surface bounds with tetrahedra. INPUT is an .off, .obj, .stl or .ply file. "
     "Several\nsurfaces bound a subdomain each, numbered from 1; what lies in several of them belongs to the last. Or "
     "INPUT is an\nimage, .inr, .inr.gz or .hdr: of labels, of which each but 0 is a subdomain, or with --iso of grey "
     "values. Lengths are in the input's "
-    "units, or with a\ntrailing % in parts of its bounding box diagonal.\n";
+    "units, or with a\ntrailing % in parts of its bounding box diagonal.\n\n"
+    "A surface with seams, facets turned over, there twice, degenerate or crossing, fins or walls inside is mended; "
+    "notes say\nwhat was done. Walls and edges where parts touch divide it into subdomains.\n";
 
 const std::string after_options =
     "Exit status: 0 if the mesh meets all criteria; 1 for bad usage or bad input, when no file is written; 2 if the "
@@ -64,7 +67,8 @@ struct Request : command_line::Files
   weft::Feature_options features;
   weft::Mesh_options_3 options;
   double min_dihedral = 0;
-  bool repair = false, approximation_is_given = false, no_optimise = false, no_perturb = false;
+  mesh_3_program::Mending mending;
+  bool approximation_is_given = false, no_optimise = false, no_perturb = false;
 };
 
 void add_options(command_line::Options& options, Request& request)
@@ -93,8 +97,13 @@ void add_options(command_line::Options& options, Request& request)
                  "can be reached");
   options.flag("--no-optimise", request.no_optimise, "neither coarsening nor smoothing after refinement");
   options.flag("--no-perturb", request.no_perturb, "no perturbation of slivers");
-  options.flag("--repair", request.repair,
-               "try to repair an input that isn't a closed surface, instead of refusing it");
+  options.flag("--strict", request.mending.strict,
+               "refuse an input that isn't a closed surface, instead of mending it");
+  options.number("--weld", "PART", 0, 0.01, request.mending.options.tolerance,
+                 "where facets don't fit together, points are welded within this part of the bounding\nbox diagonal "
+                 "(default 1e-6)");
+  options.flag("--repair", request.mending.repair,
+               "where mending doesn't suffice, fill holes and remove self-intersections as CGAL does");
   options.number("--iso", "VALUE", -most, most, request.iso,
                  "take an image for grey values or signed distances: the value on the boundary of the\ndomain, "
                  "interpolated between voxels");
@@ -156,6 +165,8 @@ void check(const command_line::Options& options, Request& request)
   check_shape(options, "--facet-shape", request.bounds.facet_shape);
   check_shape(options, "--cell-shape", request.bounds.cell_shape);
   command_line::check_min_dihedral(options, request.min_dihedral);
+  if (request.mending.strict && (request.mending.repair || options.has("--weld")))
+    throw Error("--strict excludes --weld and --repair");
   check_labels(request);
   if (options.has("--iso")) request.image.iso = request.iso;
   check_image_options(request);
@@ -235,13 +246,20 @@ std::unique_ptr<Domain> read_domain(const Request& request)
   const bool is_image = mesh_3_program::is_image_filename(request.inputs.front());
   try {
     auto domain = is_image ? mesh_3_program::read_image(request.inputs.front(), request.image)
-                           : mesh_3_program::read_surfaces(request.inputs, request.features, request.repair);
+                           : mesh_3_program::read_surfaces(request.inputs, request.features, request.mending);
     for (const std::string& change : domain->changes())
       if (!request.quiet) command_line::complain("mesh_3", request.input() + ": " + change);
     return domain;
   } catch (const weft::Domain_error& error) {
-    throw Error(request.input() + ": " + error.what() +
-                (is_image || request.repair ? "" : "; --repair tries to set it right"));
+    const std::string what = error.what();
+    std::string advice;
+    if (is_image)
+      advice = "";
+    else if (request.mending.strict)
+      advice = "; without --strict it would be mended if that can be";
+    else if (!request.mending.repair && what.find("give it a thickness") == std::string::npos)
+      advice = "; --repair tries to set it right";
+    throw Error(request.input() + ": " + what + advice);
   }
 }
 

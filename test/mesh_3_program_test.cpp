@@ -165,6 +165,81 @@ TEST_CASE("a surface that isn't closed is refused with its edges named, and repa
   CHECK(number(folder.read("r.json"), "volume") == Approx(1));
 }
 
+TEST_CASE("dirt is mended with a note for each thing done, and refused with --strict")
+{
+  const Folder folder("dirt");
+  // Each face has points of its own, some facets are turned over, one is there twice, and a fin sticks out.
+  folder.write("dirt.off", "OFF\n27 8 0\n"
+                           "0 0 0\n0 1 0\n1 1 0\n1 0 0\n0 0 0\n1 0 0\n1 0 1\n0 0 1\n1 0 0\n1 1 0\n1 1 1\n1 0 1\n"
+                           "1 1 0\n0 1 0\n0 1 1\n1 1 1\n0 1 0\n0 0 0\n0 0 1\n0 1 1\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
+                           "0 0 1\n1 0 1\n0.5 0 1.3\n"
+                           "4 0 1 2 3\n4 4 5 6 7\n4 11 10 9 8\n4 12 13 14 15\n4 16 17 18 19\n4 23 22 21 20\n"
+                           "4 16 17 18 19\n3 24 25 26\n");
+  const Outcome mended = folder.run("dirt.off --size 0.5 --output m.mesh --report r.json");
+  CHECK(mended.status == 0);
+  for (const char* note : {"welded to equal ones", "turned over", "twice", "left out"})
+    CHECK(contains(mended.err, note));
+  CHECK(number(folder.read("r.json"), "volume") == Approx(1));
+  CHECK(folder.run("dirt.off --size 0.5 --output m.mesh --quiet").err == "");
+  const Outcome strict = folder.run("dirt.off --size 0.5 --strict --output s.mesh");
+  CHECK(strict.status == 1);
+  CHECK(is_one_line(strict.err));
+  CHECK(folder.files().count("s.mesh") == 0);
+  CHECK(folder.run("dirt.off --strict --repair").status == 1);
+  folder.write("mixed.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  CHECK(folder.run("mixed.off --size 0.5 --strict --output s.mesh").status == 1);
+  CHECK(folder.run("mixed.off --size 0.5 --output u.mesh").status == 0);
+  CHECK(folder.run("cube.off --size 0.5 --strict --output s.mesh").status == 0);
+  CHECK(folder.run("cube.off --size 0.5 --output t.mesh").err == "");
+  CHECK(folder.read("s.mesh") == folder.read("t.mesh"));
+  CHECK(contains(folder.run("dirt.off --weld 0.1").err, "--weld"));
+}
+
+TEST_CASE("a wall inside makes two subdomains, and so do cubes that share an edge")
+{
+  const Folder folder("wall");
+  folder.write("wall.off", "OFF\n12 11 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n0 0 1\n1 0 1\n2 0 1\n0 1 1\n1 1 1\n"
+                           "2 1 1\n4 0 3 4 1\n4 6 7 10 9\n4 0 1 7 6\n4 3 9 10 4\n4 0 6 9 3\n4 1 4 10 7\n4 1 4 5 2\n"
+                           "4 7 8 11 10\n4 1 2 8 7\n4 4 10 11 5\n4 2 5 11 8\n");
+  folder.write("edge.off", "OFF\n14 12 0\n0 0 0\n0 1 0\n1 1 0\n1 0 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n1 2 0\n2 2 0\n2 1 0\n"
+                           "2 1 1\n2 2 1\n1 2 1\n4 0 1 2 3\n4 4 5 6 7\n4 0 3 5 4\n4 1 7 6 2\n4 0 4 7 1\n4 3 2 6 5\n"
+                           "4 2 8 9 10\n4 6 11 12 13\n4 2 10 11 6\n4 8 13 12 9\n4 2 6 13 8\n4 10 9 12 11\n");
+  for (const char* name : {"wall.off", "edge.off"}) {
+    INFO(name);
+    const Outcome outcome = folder.run(std::string(name) + " --size 0.5 --output m.mesh --report r.json");
+    CHECK(outcome.status == 0);
+    CHECK(contains(outcome.err, "2 subdomains"));
+    CHECK(number(folder.read("r.json"), "volume") == Approx(1)); // of the first
+    CHECK(contains(folder.read("r.json"), "\"subdomain\": 2"));
+  }
+}
+
+TEST_CASE("parts that cross are united, and refused with --strict")
+{
+  const Folder folder("crossed");
+  folder.write("crossed.off",
+               // two tetrahedra through each other
+               "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.1 .1 .1\n1.1 .1 .1\n.1 1.1 .1\n.1 .1 1.1\n"
+               "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 4 7 6\n");
+  const Outcome outcome = folder.run("crossed.off --size 0.5 --no-perturb --output m.mesh --report r.json");
+  CHECK((outcome.status == 0 || outcome.status == 2));
+  CHECK(contains(outcome.err, "cut"));
+  CHECK(number(folder.read("r.json"), "volume") == Approx((2 - 0.343) / 6).epsilon(1e-3));
+  CHECK(folder.run("crossed.off --size 0.5 --strict --output s.mesh").status == 1);
+}
+
+TEST_CASE("a sheet is refused with advice that can help")
+{
+  const Folder folder("sheet");
+  folder.write("sheet.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  const Outcome outcome = folder.run("sheet.off --output m.mesh");
+  CHECK(outcome.status == 1);
+  CHECK(is_one_line(outcome.err));
+  CHECK(contains(outcome.err, "a sheet: give it a thickness"));
+  CHECK(!contains(outcome.err, "--repair"));
+  CHECK(folder.files().count("m.mesh") == 0);
+}
+
 TEST_CASE("nasty input gives status 1 and one line, whatever is wrong with it")
 {
   const Folder folder("nasty");
@@ -182,10 +257,6 @@ TEST_CASE("nasty input gives status 1 and one line, whatever is wrong with it")
   refuses("nan.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 nan 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   refuses("flat.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   refuses("index.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 9\n3 0 3 2\n");
-  refuses("crossed.off", // two tetrahedra through each other
-          "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n.1 .1 .1\n1.1 .1 .1\n.1 1.1 .1\n.1 .1 1.1\n"
-          "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 4 6 5\n3 4 5 7\n3 5 6 7\n3 4 7 6\n");
-  refuses("mixed.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
 }
 
 TEST_CASE("an acute dihedral angle gives a mesh that meets its criteria, and a line that counts what the angle forces")
@@ -254,9 +325,10 @@ TEST_CASE("help and version go to stdout, and the help names every option of the
   const Outcome help = folder.run("--help"), version = folder.run("--version");
   CHECK(help.status == 0);
   CHECK(help.err == "");
-  for (const char* option : {"--size", "--approximation", "--facet-shape", "--cell-shape", "--sharp-angle",
-                             "--topology", "--manifold", "--min-dihedral", "--no-optimise", "--no-perturb", "--output",
-                             "--report", "--histogram", "--seed", "--threads", "--time-limit", "--quiet", "--repair"})
+  for (const char* option : {"--size",       "--approximation", "--facet-shape",  "--cell-shape",  "--sharp-angle",
+                             "--topology",   "--manifold",      "--min-dihedral", "--no-optimise", "--no-perturb",
+                             "--output",     "--report",        "--histogram",    "--seed",        "--threads",
+                             "--time-limit", "--quiet",         "--repair",       "--strict",      "--weld"})
     CHECK(contains(help.out, std::string("\n  ") + option));
   CHECK(version.status == 0);
   CHECK(version.out == "mesh_3 (weft) " WEFT_VERSION "\n");

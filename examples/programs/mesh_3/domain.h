@@ -9,6 +9,7 @@
 #include <weft/options.h>
 #include <weft/report.h>
 #include <weft/spatial/surface/Feature_options.h>
+#include <weft/spatial/surface/Mend_options_3.h>
 
 #include <map>
 #include <memory>
@@ -46,11 +47,18 @@ public:
   virtual std::shared_ptr<const Result> mesh(const Bounds& bounds, const weft::Mesh_options_3& options) const = 0;
 };
 
+/// What to do with surfaces that aren't closed surfaces.
+struct Mending
+{
+  bool strict = false; ///< refuse them
+  bool repair = false; ///< try CGAL's repair where mending fails
+  weft::Mend_options_3 options;
+};
+
 /// Reads the surfaces that bound a domain.
-/// \param repair whether to mend what isn't a closed surface.
 /// \throws weft::File_error if a file can't be read, weft::Domain_error if the surfaces don't bound a domain.
 std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames, const weft::Feature_options& features,
-                                      bool repair);
+                                      const Mending& mending);
 
 /// Whether a file is an image, by its name.
 bool is_image_filename(const std::string& filename);

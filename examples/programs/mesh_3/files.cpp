@@ -9,6 +9,7 @@
 #include <weft/IO/write_angle_histogram_svg.h>
 #include <weft/IO/write_mesh_3.h>
 #include <weft/IO/write_report_json_3.h>
+#include <weft/spatial/surface/mended_complex_3.h>
 #include <weft/spatial/surface/merge_surfaces_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -45,13 +46,14 @@ private:
 } // namespace
 
 std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames, const weft::Feature_options& features,
-                                      bool is_to_be_repaired)
+                                      const Mending& mending)
 {
-  using Repair = weft::Polygon_soup_3<K>::Repair;
   std::vector<weft::Polygon_soup_3<K>> surfaces;
   for (const std::string& name : filenames) surfaces.push_back(weft::IO::read_surface<K>(name));
+  if (mending.strict) return std::make_unique<Surface_domain>(weft::piecewise_smooth_complex(surfaces, features));
+  using Repair = weft::Polygon_soup_3<K>::Repair;
   return std::make_unique<Surface_domain>(
-      weft::piecewise_smooth_complex(surfaces, features, is_to_be_repaired ? Repair(repair) : Repair()));
+      weft::mended_complex_3(surfaces, features, mending.options, mending.repair ? Repair(repair) : Repair()));
 }
 
 // ---- Results

@@ -76,7 +76,7 @@ bool are_folded(const Triangle_surface_3<K>& surface, const Surface_side_3& a, c
 
 /// The pairs of triangles that have more in common than a vertex or an edge that both have, some of them several times.
 /// Unless they share an edge, an edge of one of them meets the other, and none of its ends is a vertex of that.
-/// \pre No facet is degenerate, and every edge has two sides.
+/// \pre No facet is degenerate, and no two have the same vertices.
 template <class K>
 std::vector<std::array<std::size_t, 2>> intersecting_triangles(const Triangle_surface_3<K>& surface,
                                                                const std::vector<Surface_side_3>& sides)
@@ -87,21 +87,20 @@ std::vector<std::array<std::size_t, 2>> intersecting_triangles(const Triangle_su
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) triangles.push_back(hierarchy_triangle(surface, t));
   const Triangle_hierarchy_3<K> hierarchy(triangles);
   std::vector<std::array<std::size_t, 2>> found;
-  for_each_edge(sides, [&](auto first, auto) {
-    const Surface_side_3 &left = *first, &right = *(first + 1);
-    if (are_folded(surface, left, right)) found.push_back({left.triangle, right.triangle});
-    const auto &p = surface.points[left.low], &q = surface.points[left.high];
+  for_each_edge(sides, [&](auto first, auto last) {
+    for (auto side = first; side != last; ++side)
+      for (auto other = side + 1; other != last; ++other)
+        if (are_folded(surface, *side, *other)) found.push_back({side->triangle, other->triangle});
+    const std::size_t low = first->low, high = first->high;
+    const auto &p = surface.points[low], &q = surface.points[high];
     hierarchy.visit_near_segment(p, q, [&](const Triangle& triangle) {
       for (const std::size_t v : triangle.vertices)
-        if (v == left.low || v == left.high) return false;
+        if (v == low || v == high) return false;
       const Segment_and_triangle_3<K> pair(p, q, triangle);
       if (pair.misses()) return false;
       bool touches = !pair.is_degenerate();
       if (!touches) pair.contacts([&](const auto&) { touches = true; });
-      if (touches) {
-        found.push_back({left.triangle, triangle.index});
-        found.push_back({right.triangle, triangle.index});
-      }
+      for (auto side = first; touches && side != last; ++side) found.push_back({side->triangle, triangle.index});
       return false;
     });
   });

@@ -41,13 +41,22 @@ public:
           triangle.vertices[i] = static_cast<std::uint32_t>(surface.triangles[t][i]);
           triangle.points[i] = surface.points[surface.triangles[t][i]];
         }
+        const auto [behind, before] = sides_in(surface, t);
+        triangle.change = behind ^ before;
         triangle.index = static_cast<std::uint32_t>(t);
         triangle.patch = 0;
         triangles.push_back(triangle);
       }
       trees_.emplace_back(triangles);
     }
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) add(static_cast<int>(i));
+    int before = 0;
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+      add(static_cast<int>(i));
+      first_subdomain_.push_back(before + 1);
+      int count = 1;
+      for (const auto& [a, b] : surfaces_[i].sides) count = (std::max)({count, a, b});
+      before += count;
+    }
   }
 
   Complex complex(const Feature_options& options)
@@ -74,12 +83,22 @@ public:
   }
 
 private:
-  /// A triangle and the surfaces that have it.
+  /// A surface that has a triangle, and its own subdomains behind and before the triangle as that is turned here.
+  struct Owner
+  {
+    int surface, behind, before;
+  };
   struct Facet
   {
     std::array<std::size_t, 3> corners;
-    std::vector<std::pair<int, bool>> owners; ///< and whether it is turned as there
+    std::vector<Owner> owners;
   };
+
+  static std::pair<int, int> sides_in(const Complex& surface, std::size_t triangle)
+  {
+    if (surface.sides.empty()) return {1, 0};
+    return surface.sides[static_cast<std::size_t>(surface.patches[triangle])];
+  }
 
   void add(int s)
   {
@@ -90,7 +109,8 @@ private:
       if (is_new) points_.push_back(p);
       number.push_back(at->second);
     }
-    for (const auto& [a, b, c] : surface.triangles) {
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      const auto& [a, b, c] = surface.triangles[t];
       const std::array<std::size_t, 3> corners{{number[a], number[b], number[c]}};
       auto key = corners;
       std::sort(key.begin(), key.end());
@@ -98,7 +118,9 @@ private:
       if (is_new) facets_.push_back({corners, {}});
       Facet& facet = facets_[at->second];
       const auto next = std::find(facet.corners.begin(), facet.corners.end(), corners[0]) - facet.corners.begin() + 1;
-      facet.owners.emplace_back(s, facet.corners[static_cast<std::size_t>(next % 3)] == corners[1]);
+      auto [behind, before] = sides_in(surface, t);
+      if (facet.corners[static_cast<std::size_t>(next % 3)] != corners[1]) std::swap(behind, before);
+      facet.owners.push_back({s, behind, before});
     }
   }
 
@@ -117,7 +139,7 @@ private:
         }
   }
 
-  /// The subdomains behind and before a triangle: on each side, the last surface that contains it, from 1.
+  /// The subdomains behind and before a triangle: on each side, that of the last surface that contains it, from 1.
   std::pair<int, int> sides_of(const Facet& facet) const
   {
     const Point &a = points_[facet.corners[0]], &b = points_[facet.corners[1]], &c = points_[facet.corners[2]];
@@ -125,15 +147,17 @@ private:
     int behind = 0, before = 0;
     for (std::size_t s = 0; s < surfaces_.size(); ++s) {
       const auto owner = std::find_if(facet.owners.begin(), facet.owners.end(),
-                                      [s](const auto& o) { return o.first == static_cast<int>(s); });
+                                      [s](const auto& o) { return o.surface == static_cast<int>(s); });
+      const auto number = [&](int subdomain) { return first_subdomain_[s] + subdomain - 1; };
       if (owner != facet.owners.end()) {
-        (owner->second ? behind : before) = static_cast<int>(s) + 1;
+        if (owner->behind != 0) behind = number(owner->behind);
+        if (owner->before != 0) before = number(owner->before);
       } else if (trees_[s].is_within(center, squared_rounding(center))) {
         throw Domain_error("facets of surface " + std::to_string(s) + " and of surface " +
-                               std::to_string(facet.owners.front().first) + " overlap without being the same",
+                               std::to_string(facet.owners.front().surface) + " overlap without being the same",
                            {}, {});
-      } else if (trees_[s].subdomain(center) != 0) {
-        behind = before = static_cast<int>(s) + 1;
+      } else if (const int subdomain = trees_[s].subdomain(center)) {
+        behind = before = number(subdomain);
       }
     }
     return {behind, before};
@@ -147,11 +171,36 @@ private:
 
   const std::vector<Complex>& surfaces_;
   std::vector<Triangle_hierarchy_3<K>> trees_;
+  std::vector<int> first_subdomain_; ///< of each surface
   std::map<Point, std::size_t> number_of_point_;
   std::vector<Point> points_;
   std::map<std::array<std::size_t, 3>, std::size_t> facet_of_corners_;
   std::vector<Facet> facets_;
 };
+
+/// The complex of several surfaces, of which `complex_of(surface)` makes those of each.
+template <class Surface, class Complex_of>
+auto merge_surfaces(const std::vector<Surface>& surfaces, const Feature_options& options, const Complex_of& complex_of)
+{
+  using Complex = decltype(complex_of(surfaces.front()));
+  using K = typename Complex::Kernel;
+  if (surfaces.empty()) throw Domain_error("there are no surfaces", {}, {});
+  if (surfaces.size() == 1) return complex_of(surfaces.front());
+  std::vector<Complex> complexes;
+  std::vector<std::string> changes;
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    const std::string name = "surface " + std::to_string(s) + ": ";
+    try {
+      complexes.push_back(complex_of(surfaces[s]));
+    } catch (const Domain_error& error) {
+      throw Domain_error(name + error.what(), error.vertices(), error.elements());
+    }
+    for (const std::string& change : complexes.back().changes) changes.push_back(name + change);
+  }
+  auto complex = Surface_merger_3<K>(complexes).complex(options);
+  complex.changes = std::move(changes);
+  return complex;
+}
 
 } // namespace internal
 
@@ -167,22 +216,9 @@ Piecewise_smooth_complex_3<K> piecewise_smooth_complex(const std::vector<Polygon
                                                        const Feature_options& options = {},
                                                        const typename Polygon_soup_3<K>::Repair& repair = {})
 {
-  if (surfaces.empty()) throw Domain_error("there are no surfaces", {}, {});
-  if (surfaces.size() == 1) return piecewise_smooth_complex(surfaces.front(), options, repair);
-  std::vector<Piecewise_smooth_complex_3<K>> complexes;
-  std::vector<std::string> changes;
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    const std::string name = "surface " + std::to_string(s) + ": ";
-    try {
-      complexes.push_back(piecewise_smooth_complex(surfaces[s], options, repair));
-    } catch (const Domain_error& error) {
-      throw Domain_error(name + error.what(), error.vertices(), error.elements());
-    }
-    for (const std::string& change : complexes.back().changes) changes.push_back(name + change);
-  }
-  auto complex = internal::Surface_merger_3<K>(complexes).complex(options);
-  complex.changes = std::move(changes);
-  return complex;
+  return internal::merge_surfaces(surfaces, options, [&](const Polygon_soup_3<K>& surface) {
+    return piecewise_smooth_complex(surface, options, repair);
+  });
 }
 
 } // namespace weft

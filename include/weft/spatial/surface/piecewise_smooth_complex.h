@@ -155,6 +155,17 @@ Piecewise_smooth_complex_3<K> derive_complex(Triangle_surface_3<K> surface, cons
   return complex;
 }
 
+/// Notes how many given edges and vertices aren't among those that are left.
+inline void note_lost_features(const Feature_options& given, const Feature_options& left, std::vector<std::string>& log)
+{
+  const auto note_loss = [&](std::size_t n, const char* singular, const char* plural) {
+    if (n > 0) log.push_back(counted(n, singular, plural));
+  };
+  note_loss(given.sharp_edges.size() - left.sharp_edges.size(), "given sharp edge lost", "given sharp edges lost");
+  note_loss(given.tips_and_cusps.size() - left.tips_and_cusps.size(), "given tip or cusp lost",
+            "given tips or cusps lost");
+}
+
 /// The options for a repaired surface: its points have new places, known by their coordinates. What is gone is dropped
 /// and noted in the log.
 template <class K>
@@ -175,12 +186,7 @@ Feature_options relocated_options(const Feature_options& options, const std::vec
       result.sharp_edges.push_back({place(a), place(b)});
   for (const std::size_t v : options.tips_and_cusps)
     if (place(v) < after.size()) result.tips_and_cusps.push_back(place(v));
-  const auto note_loss = [&](std::size_t n, const char* singular, const char* plural) {
-    if (n > 0) log.push_back(counted(n, singular, plural));
-  };
-  note_loss(options.sharp_edges.size() - result.sharp_edges.size(), "given sharp edge lost", "given sharp edges lost");
-  note_loss(options.tips_and_cusps.size() - result.tips_and_cusps.size(), "given tip or cusp lost",
-            "given tips or cusps lost");
+  note_lost_features(options, result, log);
   return result;
 }
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far mending of surfaces may go.
+
+#ifndef WEFT_SPATIAL_SURFACE_MEND_OPTIONS_3_H
+#define WEFT_SPATIAL_SURFACE_MEND_OPTIONS_3_H
+
+#include <weft/errors.h>
+
+namespace weft {
+
+/// Options of `mended_complex_3()`.
+struct Mend_options_3
+{
+  /// Points of facets that don't fit together are welded within this distance, in parts of the bounding box' diagonal,
+  /// and edges are split at points that are as near to them; 0: only equal points and points on edges.
+  double tolerance = 1e-6;
+
+  /// Facets that bound nothing, such as fins, are left out up to this part of the surface's area; above it the surface
+  /// is refused.
+  double most_left_out = 0.3;
+
+  /// \throws Option_error naming the first option out of range.
+  void check() const
+  {
+    if (!(tolerance >= 0 && tolerance <= 0.01)) throw Option_error("tolerance must be between 0 and 0.01");
+    if (!(most_left_out >= 0 && most_left_out < 1)) throw Option_error("most_left_out must be from 0 to below 1");
+  }
+};
+
+} // namespace weft
+
+#endif // WEFT_SPATIAL_SURFACE_MEND_OPTIONS_3_H

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Cuts triangles along the curves in which they meet, so that afterwards they have only vertices and edges in common.
+// Intersections are exact; points are rounded at the end, which may bring triangles to touch again: check the result.
+
+#ifndef WEFT_SPATIAL_SURFACE_RESOLVE_INTERSECTIONS_3_H
+#define WEFT_SPATIAL_SURFACE_RESOLVE_INTERSECTIONS_3_H
+
+#include <weft/errors.h>
+#include <weft/spatial/surface/check_surface_volume_3.h>
+#include <weft/spatial/surface/surface_topology_3.h>
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_face_base_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+#include <CGAL/Projection_traits_3.h>
+#include <CGAL/Triangulation_data_structure_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace weft::internal {
+
+/// See the top of the file. \tparam K a kernel of doubles with exact predicates.
+template <class K>
+class Intersection_resolver_3
+{
+  using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+  using Exact_point = Exact::Point_3;
+  using Exact_triangle = Exact::Triangle_3;
+  static constexpr std::size_t most_pairs = 300000;
+
+public:
+  /// \pre No triangle is degenerate, and no two have the same vertices. Pieces have the origins of their triangles; of
+  /// pieces on the same vertices each stays.
+  explicit Intersection_resolver_3(Triangle_surface_3<K>& surface) : surface_(surface) {}
+
+  /// Returns how many pairs of triangles were cut. \throws Domain_error if there are far too many.
+  std::size_t resolve()
+  {
+    auto pairs = intersecting_triangles(surface_, sorted_sides(surface_.triangles));
+    for (auto& pair : pairs) std::sort(pair.begin(), pair.end());
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    if (pairs.size() > most_pairs) throw Domain_error("too many facets intersect", {}, {});
+    for (const auto& [s, t] : pairs) meet(s, t);
+    Triangle_surface_3<K> result;
+    result.points = surface_.points;
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      const auto found = cuts_.find(t);
+      if (found == cuts_.end())
+        result.triangles.push_back(surface_.triangles[t]);
+      else
+        cut(t, found->second, result);
+      result.origins.resize(result.triangles.size(), surface_.origin(t));
+    }
+    surface_ = std::move(result);
+    return pairs.size();
+  }
+
+private:
+  /// Segments and single points that a triangle has in common with others.
+  using Cuts = std::vector<std::pair<Exact_point, Exact_point>>;
+
+  static Exact_point exact(const typename K::Point_3& p) { return Exact_point(p.x(), p.y(), p.z()); }
+
+  const Exact_point& exact_vertex(std::size_t v)
+  {
+    const auto [at, is_new] = exact_vertices_.try_emplace(v);
+    if (is_new) at->second = exact(surface_.points[v]);
+    return at->second;
+  }
+  Exact_triangle exact_triangle(std::size_t t)
+  {
+    const auto& [a, b, c] = surface_.triangles[t];
+    return Exact_triangle(exact_vertex(a), exact_vertex(b), exact_vertex(c));
+  }
+
+  void meet(std::size_t s, std::size_t t)
+  {
+    const auto common = CGAL::intersection(exact_triangle(s), exact_triangle(t));
+    if (!common) return;
+    const auto add = [&](const Exact_point& p, const Exact_point& q) {
+      cuts_[s].emplace_back(p, q);
+      cuts_[t].emplace_back(p, q);
+    };
+    if (const auto* p = boost::get<Exact_point>(&*common)) {
+      add(*p, *p);
+    } else if (const auto* segment = boost::get<Exact::Segment_3>(&*common)) {
+      add(segment->source(), segment->target());
+    } else if (const auto* triangle = boost::get<Exact_triangle>(&*common)) {
+      for (int i = 0; i < 3; ++i) add(triangle->vertex(i), triangle->vertex(i + 1));
+    } else if (const auto* polygon = boost::get<std::vector<Exact_point>>(&*common)) {
+      for (std::size_t i = 0; i < polygon->size(); ++i) add((*polygon)[i], (*polygon)[(i + 1) % polygon->size()]);
+    }
+  }
+
+  /// The constrained Delaunay triangulation of a triangle with its cuts.
+  void cut(std::size_t t, const Cuts& cuts, Triangle_surface_3<K>& result)
+  {
+    using Traits = CGAL::Projection_traits_3<Exact>;
+    using Vertex_base = CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Traits>;
+    using Structure =
+        CGAL::Triangulation_data_structure_2<Vertex_base, CGAL::Constrained_triangulation_face_base_2<Traits>>;
+    using Triangulation = CGAL::Constrained_triangulation_plus_2<
+        CGAL::Constrained_Delaunay_triangulation_2<Traits, Structure, CGAL::Exact_intersections_tag>>;
+
+    const auto corners = surface_.triangles[t];
+    const Exact_triangle triangle = exact_triangle(t);
+    Triangulation triangulation{Traits(triangle.supporting_plane().orthogonal_vector())};
+    for (int i = 0; i < 3; ++i) triangulation.insert(triangle.vertex(i));
+    for (const auto& [p, q] : cuts)
+      if (p == q)
+        triangulation.insert(p);
+      else
+        triangulation.insert_constraint(p, q);
+    for (const auto v : triangulation.finite_vertex_handles()) v->info() = number(v->point(), corners, result);
+    for (const auto face : triangulation.finite_face_handles())
+      result.triangles.push_back({face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
+  }
+
+  /// The number of a point in the result; the same for equal points, whichever triangles they were found on.
+  std::size_t number(const Exact_point& p, const std::array<std::size_t, 3>& corners, Triangle_surface_3<K>& result)
+  {
+    for (const std::size_t v : corners)
+      if (exact_vertex(v) == p) return v;
+    const auto [at, is_new] = numbers_.try_emplace(p, result.points.size());
+    if (is_new) result.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+    return at->second;
+  }
+
+  Triangle_surface_3<K>& surface_;
+  std::map<std::size_t, Exact_point> exact_vertices_;
+  std::map<std::size_t, Cuts> cuts_;
+  std::map<Exact_point, std::size_t, Exact::Less_xyz_3> numbers_;
+};
+
+} // namespace weft::internal
+
+#endif // WEFT_SPATIAL_SURFACE_RESOLVE_INTERSECTIONS_3_H
