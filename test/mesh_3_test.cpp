@@ -803,3 +803,81 @@ TEST_CASE("a mesh is built again from its vertices, and what is around bad eleme
         return CGAL::squared_distance(b.center, fewer.points[i]) < 1.01 * 1.01 * b.squared_radius;
       }));
 }
+
+TEST_CASE("flat faces take the same vertices whatever the bound, the extent and the position")
+{
+  const auto vertices = [](double extent, double offset, double bound) {
+    Surface turned = surfaces::cube();
+    const double a = 0.7, b = 1.1; // radians, about z and x
+    for (Point& p : turned.points) {
+      const double x = std::cos(a) * p.x() - std::sin(a) * p.y(), y = std::sin(a) * p.x() + std::cos(a) * p.y();
+      p = Point(extent * x + offset, extent * (std::cos(b) * y - std::sin(b) * p.z()) + offset,
+                extent * (std::sin(b) * y + std::cos(b) * p.z()) + offset);
+    }
+    const Oracle oracle = oracle_of(turned);
+    const auto report = weft::make_mesh_3(oracle, criteria_of(0.25 * extent, bound * extent), refinement()).report;
+    INFO(report);
+    CHECK(report.ok());
+    return static_cast<double>(report.vertices);
+  };
+  const double usual = vertices(1, 0, 1e-3);
+  for (const double bound : {1e-6, 1e-8, 1e-10, 1e-12}) CHECK(vertices(1, 0, bound) == Approx(usual).epsilon(0.02));
+  for (const double extent : {1e-9, 1e6, 1e9}) CHECK(vertices(extent, 0, 1e-9) == Approx(usual).epsilon(0.02));
+  CHECK(vertices(1, 1e6, 1e-6) == Approx(usual).epsilon(0.02));
+}
+
+TEST_CASE("the approximation of a patch binds its creases, too")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(200));
+  REQUIRE(oracle.number_of_creases() == 2);
+  int side = -1; // the patch at both creases
+  for (const int p : oracle.incidence().patches_of_crease(0))
+    for (const int q : oracle.incidence().patches_of_crease(1))
+      if (p == q) side = p;
+  REQUIRE(side >= 0);
+  const auto farthest = [&](const Criteria& criteria) {
+    const auto result = weft::make_mesh_3(oracle, criteria, refinement());
+    CHECK(result.report.ok());
+    const Mesh mesh = weft::tetrahedral_mesh(result.restricted);
+    double distance = 0;
+    for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+      const Point middle = CGAL::midpoint(mesh.points[mesh.edges[e][0]], mesh.points[mesh.edges[e][1]]);
+      distance = std::max(distance, CGAL::squared_distance(middle, oracle.project_on_crease(middle, mesh.creases[e])));
+    }
+    return std::sqrt(distance);
+  };
+  Criteria criteria = criteria_of(0.8, 0.1);
+  CHECK(farthest(criteria) > 0.01); // so that there is something to bind
+  criteria.patches[side].approximation = 0.002;
+  CHECK(farthest(criteria) <= 0.0021); // rounding, and the crease is a polygon
+}
+
+TEST_CASE("a thin rod, a needle and the walls of a narrow slot are whole, with few vertices")
+{
+  const auto stretched = [](Surface s, double x, double y, double z) {
+    for (Point& p : s.points) p = Point(x * p.x(), y * p.y(), z * p.z());
+    return s;
+  };
+  // A block with a slot 0.03 wide and 7 deep.
+  Surface slot = surfaces::voxels({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}});
+  const double xs[] = {0, 5, 5.03, 10}, ys[] = {0, 3, 10};
+  for (Point& p : slot.points) p = Point(xs[static_cast<int>(p.x())], ys[static_cast<int>(p.y())], 3 * p.z());
+  struct Case
+  {
+    Surface surface;
+    double size, approximation;
+    std::size_t most_vertices;
+  };
+  for (const Case& c : {Case{stretched(surfaces::cylinder(24), 0.05, 0.05, 20), 4, 0.1, 5000},
+                        Case{surfaces::cone(24, 60), 4, 0.1, 6000}, Case{slot, 2, 0.01, 8000}}) {
+    const Oracle oracle = oracle_of(c.surface);
+    const auto result = weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation, false), refinement());
+    INFO(result.report);
+    CHECK(result.report.domain.ok());
+    CHECK(result.report.manifold);
+    CHECK(result.report.vertices < c.most_vertices);
+    const Mesh mesh = weft::tetrahedral_mesh(result.restricted);
+    CHECK(number_of_shells(mesh) == 1);
+    CHECK(volume_of_cells(mesh) == Approx(surfaces::volume(c.surface)).epsilon(0.25)); // facets as wide as the rod
+  }
+}

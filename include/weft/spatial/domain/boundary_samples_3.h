@@ -32,6 +32,16 @@ struct Has_boundary_samples_3<Oracle, std::void_t<decltype(std::declval<const Or
                                           1., Ignore_sample_3<typename Oracle::Point>()))>> : std::true_type
 {};
 
+/// Whether an oracle knows how far it is along a normal to where the boundary is met again.
+template <class Oracle, class = void>
+struct Has_thickness_3 : std::false_type
+{};
+template <class Oracle>
+struct Has_thickness_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().thickness(
+                                   std::declval<const typename Oracle::Point&>(), std::array<double, 3>(), 1.))>>
+    : std::true_type
+{};
+
 /// Distance that facets and crease edges may have from points of the boundary: two and a half times the approximation
 /// bound, as far as refinement lets points of sharp edges that aren't creases be from facets. Infinite where nothing is
 /// asked for.

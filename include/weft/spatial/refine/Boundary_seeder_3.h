@@ -94,7 +94,7 @@ public:
   {
     const auto& oracle = mesh_.oracle();
     using Oracle = std::decay_t<decltype(oracle)>;
-    if constexpr (Has_boundary_samples_3<Oracle>::value) {
+    if constexpr (Has_boundary_samples_3<Oracle>::value && Has_thickness_3<Oracle>::value) {
       if (!criteria_.approximation || !criteria_.approximation.is_constant()) return 0;
       const double approximation = criteria_.approximation.constant();
       Boundary_distance_3<Kernel> distance(static_cast<std::size_t>(oracle.number_of_patches()), 0);

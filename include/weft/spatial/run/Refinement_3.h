@@ -69,28 +69,9 @@ public:
   bool refine(double factor, bool with_cells, std::size_t most_batches = std::numeric_limits<std::size_t>::max(),
               unsigned luck = 0)
   {
-    Batch_refiner_3<Restricted> refiner(mesh_, criteria_, factor, with_cells, size_floor(), options_.seed + 1 + luck,
-                                        factor == 1 ? settled_ : 0);
     bool go_on = true;
-    for (std::size_t batches = 0; go_on && batches < most_batches; ++batches) {
-      go_on = may_refine();
-      if (!go_on) break;
-      const Batch_3 batch = refiner.refine(options_.max_vertices - mesh_.vertices().size());
-      ++report_.batches;
-      go_on = run_.visit(mesh_.vertices().size(), batch.bad);
-      bad_left_ = batch.bad;
-      if (factor == 1 && !has_seeded_missed_ && refiner.has_found_turned()) {
-        has_seeded_missed_ = true;
-        if (seeder_.seed_missed() > 0) {
-          add_queries(refiner);
-          return refine(factor, with_cells, most_batches - batches - 1, luck);
-        }
-      }
-      if (batch.inserted > 0) continue;
-      if (factor == 1) settled_ = refiner.settle();
-      break;
-    }
-    add_queries(refiner);
+    std::size_t batches = 0;
+    while (refine_until_turned(factor, with_cells, most_batches, luck, batches, go_on)) seeder_.seed_missed();
     return go_on;
   }
 
@@ -135,10 +116,30 @@ public:
   }
 
 private:
-  void add_queries(const Batch_refiner_3<Restricted>& refiner)
+  /// Returns whether it ended since it has found the first facet that is turned away from the surface: what the mesh
+  /// misses has to be seeded then, and refinement to be begun again.
+  bool refine_until_turned(double factor, bool with_cells, std::size_t most_batches, unsigned luck,
+                           std::size_t& batches, bool& go_on)
   {
+    Batch_refiner_3<Restricted> refiner(mesh_, criteria_, factor, with_cells, size_floor(), options_.seed + 1 + luck,
+                                        factor == 1 ? settled_ : 0);
+    bool begins_again = false;
+    for (; go_on && !begins_again && batches < most_batches; ++batches) {
+      go_on = may_refine();
+      if (!go_on) break;
+      const Batch_3 batch = refiner.refine(options_.max_vertices - mesh_.vertices().size());
+      ++report_.batches;
+      go_on = run_.visit(mesh_.vertices().size(), batch.bad);
+      bad_left_ = batch.bad;
+      begins_again = factor == 1 && !has_seeded_missed_ && refiner.has_found_turned();
+      if (batch.inserted > 0 || begins_again) continue;
+      if (factor == 1) settled_ = refiner.settle();
+      break;
+    }
+    has_seeded_missed_ = has_seeded_missed_ || begins_again;
     report_.candidates += refiner.candidates();
     report_.encroachments += refiner.encroachments();
+    return begins_again && go_on;
   }
 
   /// Whether the budget allows another batch. Of several limits time is named first, then vertices.
