@@ -5,6 +5,11 @@
 #ifndef WEFT_SPATIAL_DOMAIN_SHARP_EDGES_3_H
 #define WEFT_SPATIAL_DOMAIN_SHARP_EDGES_3_H
 
+#include <weft/internal/boxes/nearest_point_3.h>
+
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
+
 #include <cmath>
 
 namespace weft::internal {
@@ -16,8 +21,11 @@ bool is_at_sharp_edge(const Oracle& oracle, const typename Oracle::Kernel::Point
                       int patch)
 {
   bool found = oracle.is_at_acute_edge(center, std::sqrt(squared_radius));
-  oracle.visit_ridges(center, squared_radius, patch,
-                      [&found](const auto&, const auto&, bool attracts) { found = found || !attracts; });
+  oracle.visit_ridges(center, squared_radius, patch, [&](const auto& source, const auto& target, bool attracts) {
+    if (found || attracts) return;
+    const auto nearest = nearest_point_on_segment(center, source, target); // some ridges are outside of the ball
+    found = CGAL::to_double(CGAL::squared_distance(center, nearest)) <= squared_radius;
+  });
   return found;
 }
 
