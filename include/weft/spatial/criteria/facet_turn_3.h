@@ -8,9 +8,9 @@
 #define WEFT_SPATIAL_CRITERIA_FACET_TURN_3_H
 
 #include <weft/internal/boxes/coordinates_3.h>
-#include <weft/spatial/domain/sharp_edges_3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -27,6 +27,17 @@ struct Has_normals_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().
 
 /// Facets whose normal makes less than that cosine with the surface's are turned away from it.
 constexpr double least_cosine_to_surface = 0.2;
+
+/// Whether there is an edge that is sharp but no crease in the surface Delaunay ball of a facet or a little beside it:
+/// refinement beside such edges goes on to the size floor, and makes nothing better.
+template <class Oracle, class Facet>
+bool is_beside_sharp_edge(const Oracle& oracle, const Facet& f)
+{
+  bool found = oracle.is_at_acute_edge(f.steiner, std::sqrt(f.squared_radius));
+  oracle.visit_ridges(f.steiner, f.squared_radius, f.patch,
+                      [&found](const auto&, const auto&, bool attracts) { found = found || !attracts; });
+  return found;
+}
 
 /// Least cosine of the angle between the normals of a boundary facet and of its patch, all pointing out of the same
 /// subdomain: at its Steiner point and near its vertices; 1 where that isn't known. The Steiner point alone doesn't
@@ -63,9 +74,7 @@ double cosine_to_surface(const Restricted& mesh, const typename Restricted::Rest
       const auto hit = mesh.oracle().project_on_patch(typename Restricted::Point(p[0], p[1], p[2]), f.patch);
       least = (std::min)(least, cosine(hit.triangle));
     }
-    return least < least_cosine_to_surface && is_at_sharp_edge(mesh.oracle(), f.steiner, f.squared_radius, f.patch)
-               ? 1
-               : least;
+    return least < least_cosine_to_surface && is_beside_sharp_edge(mesh.oracle(), f) ? 1 : least;
   } else {
     static_cast<void>(mesh), static_cast<void>(f);
     return 1;
