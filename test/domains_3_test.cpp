@@ -53,17 +53,6 @@ auto mesh_of(const Oracle& oracle, double size, double approximation, weft::Mesh
   return mesh;
 }
 
-std::map<int, double> volumes(const Mesh& mesh)
-{
-  std::map<int, double> sums;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto& v = mesh.cells[c];
-    sums[mesh.subdomains[c]] +=
-        CGAL::volume(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]);
-  }
-  return sums;
-}
-
 weft::Polygon_soup_3<K> soup(const meshing::Surface& surface)
 {
   weft::Polygon_soup_3<K> result{surface.points, {}};
@@ -84,7 +73,7 @@ TEST_CASE("an implicit torus is meshed with its topology, volume and surface")
   const Mesh mesh = mesh_of(oracle, 0.3, 0.01);
   CHECK(meshing::euler_characteristic(mesh.facets) == 0);
   CHECK(meshing::number_of_shells(mesh) == 1);
-  CHECK(volumes(mesh)[1] == Approx(2 * pi * pi * 0.16).epsilon(0.03));
+  CHECK(meshing::volumes_of_subdomains(mesh)[1] == Approx(2 * pi * pi * 0.16).epsilon(0.03));
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     if (mesh.locations[v].dimension == 2)
       CHECK(std::abs(torus(mesh.points[v])) < 1e-8);
@@ -124,13 +113,13 @@ TEST_CASE("every component of an implicit domain is found, and cavities are")
   };
   const Mesh mesh = mesh_of(Implicit(f, CGAL::Bbox_3(-2, -1, -1, 2, 1, 1)), 0.4, 0.02);
   CHECK(meshing::number_of_shells(mesh) == 3);
-  CHECK(volumes(mesh)[1] == Approx(4 * pi / 3 * (0.512 - 0.064 + 0.125)).epsilon(0.06));
+  CHECK(meshing::volumes_of_subdomains(mesh)[1] == Approx(4 * pi / 3 * (0.512 - 0.064 + 0.125)).epsilon(0.06));
 }
 
 TEST_CASE("a domain that reaches beyond its bounding box is cut off there")
 {
   const Mesh mesh = mesh_of(Implicit([](const Point& p) { return p.z(); }, CGAL::Bbox_3(0, 0, -1, 1, 1, 1)), 0.4, 0.03);
-  CHECK(volumes(mesh)[1] == Approx(1).epsilon(0.05)); // without creases, edges are rounded off
+  CHECK(meshing::volumes_of_subdomains(mesh)[1] == Approx(1).epsilon(0.05)); // without creases, edges are rounded off
 }
 
 TEST_CASE("functions that aren't numbers, throw or have no zero are refused")
@@ -161,7 +150,7 @@ TEST_CASE("three materials: interfaces are shared, volumes are right, criteria h
   const Labelled oracle(three_parts, ball_box, 4);
   const Mesh mesh = mesh_of(oracle, 0.25, 0.01);
   const double cap = pi * 0.8 * 0.8 * (3 - 0.8) / 3; // x > 0.2
-  auto volume = volumes(mesh);
+  auto volume = meshing::volumes_of_subdomains(mesh);
   REQUIRE(volume.size() == 3);
   CHECK(volume[1] == Approx(4 * pi / 3 - cap).epsilon(0.03));
   CHECK(volume[2] == Approx(cap / 2).epsilon(0.04));
@@ -263,7 +252,7 @@ TEST_CASE("an image of three materials is meshed to volumes within a percent")
   CHECK(image.value(2) == 20);
   const Mesh mesh = mesh_of(oracle_of(image, 44), 0.12, 0.012);
   auto wanted = volumes(image);
-  auto volume = volumes(mesh);
+  auto volume = meshing::volumes_of_subdomains(mesh);
   for (int label = 1; label <= 3; ++label) CHECK(volume[label] == Approx(wanted[label]).epsilon(0.01));
 }
 
@@ -275,7 +264,7 @@ TEST_CASE("images of one voxel, with labels that touch at a point, or without se
   const weft::Label_image_3 voxel({{3, 3, 3}}, {{1, 1, 1}}, {{0, 0, 0}}, middle);
   CHECK(voxel.number_of_labels() == 2);
   const Mesh one = mesh_of(oracle_of(voxel, 24), 0.15, 0);
-  CHECK(volumes(one)[1] == Approx(volumes(voxel)[1]).epsilon(0.1));
+  CHECK(meshing::volumes_of_subdomains(one)[1] == Approx(volumes(voxel)[1]).epsilon(0.1));
 
   const weft::Label_image_3 corners({{2, 2, 2}}, {{1, 1, 1}}, {{0, 0, 0}}, {1, 0, 0, 0, 0, 0, 0, 1});
   weft::Criteria_3<K> criteria;
@@ -304,7 +293,7 @@ TEST_CASE("two cubes beside each other share an interface with creases around it
   CHECK(complex.features.size() == 12);
   CHECK(complex.creases.size() == 20);
   const Mesh mesh = mesh_of(oracle, 0.3, 0.01);
-  auto volume = volumes(mesh);
+  auto volume = meshing::volumes_of_subdomains(mesh);
   CHECK(volume[1] == Approx(1).epsilon(1e-9));
   CHECK(volume[2] == Approx(1).epsilon(1e-9));
   std::size_t shared = 0;
@@ -320,7 +309,7 @@ TEST_CASE("a surface within another cuts its subdomain out, whichever comes firs
   const auto outer = soup(surfaces::cube());
   const auto inner = soup(shifted(surfaces::moved(surfaces::cube(), 0.4, 0, 0, 0), 0.3, 0.3, 0.3));
   const meshing::Oracle oracle(weft::piecewise_smooth_complex<K>({outer, inner}));
-  auto volume = volumes(mesh_of(oracle, 0.4, 0.01));
+  auto volume = meshing::volumes_of_subdomains(mesh_of(oracle, 0.4, 0.01));
   CHECK(volume[1] == Approx(1 - 0.064).epsilon(1e-9));
   CHECK(volume[2] == Approx(0.064).epsilon(1e-9));
   // The other way round the container covers what is in it.

@@ -5,6 +5,7 @@
 
 #include "fixtures/image_domains_3.h"
 #include "fixtures/meshing_fixtures_3.h"
+#include "fixtures/surface_fixtures.h"
 
 #include <weft/spatial/domain/contacts_at_edges_3.h>
 #include <weft/spatial/domain/looks_like_grey_values.h>
@@ -99,17 +100,6 @@ std::map<int, double> sampled_volumes(const weft::Voxel_image_3& image, int n)
   return sums;
 }
 
-std::map<int, double> volumes(const Mesh& mesh)
-{
-  std::map<int, double> sums;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto& v = mesh.cells[c];
-    sums[mesh.subdomains[c]] +=
-        CGAL::volume(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]);
-  }
-  return sums;
-}
-
 /// Numbers voxels by what hangs together with them through faces, of those that `belongs` says; -1 for others.
 std::map<Voxel, int> flooded(const Size& size, std::ptrdiff_t margin,
                              const std::function<bool(const Voxel&, const Voxel&)>& connects)
@@ -121,23 +111,12 @@ std::map<Voxel, int> flooded(const Size& size, std::ptrdiff_t margin,
     for (v[1] = -margin; v[1] < count(size, 1) + margin; ++v[1])
       for (v[0] = -margin; v[0] < count(size, 0) + margin; ++v[0]) {
         if (number.count(v) || !connects(v, v)) continue;
-        std::vector<Voxel> front{v};
         number[v] = parts;
-        while (!front.empty()) {
-          const Voxel from = front.back();
-          front.pop_back();
-          for (std::size_t k = 0; k < 3; ++k)
-            for (const int step : {-1, 1}) {
-              Voxel to = from;
-              to[k] += step;
-              bool is_inside = true;
-              for (std::size_t j = 0; j < 3; ++j)
-                is_inside = is_inside && to[j] >= -margin && to[j] < count(size, j) + margin;
-              if (!is_inside || number.count(to) || !connects(from, to)) continue;
-              number[to] = parts;
-              front.push_back(to);
-            }
-        }
+        surfaces::flood(v, [&](const Voxel& from, const Voxel& to) {
+          for (std::size_t j = 0; j < 3; ++j)
+            if (to[j] < -margin || to[j] >= count(size, j) + margin) return false;
+          return !number.count(to) && connects(from, to) && number.emplace(to, parts).second;
+        });
         ++parts;
       }
   return number;
@@ -359,7 +338,7 @@ TEST_CASE("what fills an image to its border has flat faces, sharp edges and all
   const Meshed result = mesh_of(oracle, 1.5, 0.3, 0.3);
   INFO(result.report);
   CHECK(result.report.ok());
-  auto volume = volumes(result.mesh);
+  auto volume = meshing::volumes_of_subdomains(result.mesh);
   auto wanted = sampled_volumes(image, 300000);
   double sum = 0;
   for (const auto& [label, own] : volume) {
@@ -403,7 +382,7 @@ TEST_CASE("a single voxel is a cube")
   const Meshed result = mesh_of(oracle, 1, 0.05, 0);
   INFO(result.report);
   CHECK(result.report.ok());
-  CHECK(volumes(result.mesh)[1] == Approx(6));
+  CHECK(meshing::volumes_of_subdomains(result.mesh)[1] == Approx(6));
 }
 
 // ---- components in meshes
@@ -479,7 +458,8 @@ TEST_CASE("grey values and signed distances are meshed to the volume of their ba
     INFO(result.report);
     CHECK(result.report.ok());
     // By as much as the facets may be off.
-    CHECK(volumes(result.mesh)[1] == Approx(4 * pi / 3 * 7.3 * 7.3 * 7.3).margin(0.15 * 4 * pi * 7.3 * 7.3));
+    CHECK(meshing::volumes_of_subdomains(result.mesh)[1] ==
+          Approx(4 * pi / 3 * 7.3 * 7.3 * 7.3).margin(0.15 * 4 * pi * 7.3 * 7.3));
     for (std::size_t v = 0; v < result.mesh.points.size(); ++v) {
       if (result.mesh.locations[v].dimension != 2) continue;
       const Point& p = result.mesh.points[v];

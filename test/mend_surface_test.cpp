@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -337,20 +338,11 @@ struct Grid
     std::map<Voxel, int> region;
     int count = 0;
     const auto fill = [&](const Voxel& seed, int number) {
-      std::vector<Voxel> pending = {seed};
       region[seed] = number;
-      while (!pending.empty()) {
-        const Voxel v = pending.back();
-        pending.pop_back();
-        for (std::size_t k = 0; k < 3; ++k)
-          for (const int d : {-1, 1}) {
-            Voxel w = v;
-            w[k] += d;
-            if (w[k] < -1 || w[k] > n || region.count(w) || at(w) != at(v)) continue;
-            region[w] = number;
-            pending.push_back(w);
-          }
-      }
+      flood(seed, [&](const Voxel& v, const Voxel& w) {
+        const bool is_inside = std::all_of(w.begin(), w.end(), [this](int x) { return x >= -1 && x <= n; });
+        return is_inside && at(w) == at(v) && region.emplace(w, number).second;
+      });
     };
     fill({-1, -1, -1}, 0);
     for (const auto& [v, k] : kind)

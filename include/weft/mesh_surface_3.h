@@ -121,7 +121,7 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
   const internal::Timer timer;
   const auto time_left = [&] { return options.time_limit - timer.seconds(); };
   const auto result = [](Attempt& attempt, std::size_t given_up) {
-    attempt.report = attempt.mesher.final_report();
+    attempt.mesher.compare_with_domain(attempt.report);
     attempt.report.creases_given_up = given_up;
     return Mesh_surface_result_3<K>{attempt.domain, attempt.mesher.take_mesh(), std::move(attempt.report)};
   };

@@ -22,6 +22,14 @@ struct Answers<Result, Expression, T, std::void_t<Expression<T>>>
 template <class Result, template <class> class Expression, class T>
 inline constexpr bool answers_v = Answers<Result, Expression, T>::value;
 
+/// Takes any arguments and does nothing: for calls that take a visitor and are only looked at.
+struct Ignore
+{
+  template <class... Arguments>
+  void operator()(const Arguments&...) const
+  {}
+};
+
 /// False, but not before a template is instantiated: for overloads that only say why they are wrong.
 template <class...>
 inline constexpr bool never_v = false;

@@ -277,9 +277,6 @@ private:
     return bound > 0 && ratio > factor_ * bound && is_forced(*mesh_, f, bound);
   }
 
-  /// The smaller of two bounds, of which 0 is none.
-  static double tighter(double a, double b) { return a == 0 || b == 0 ? a + b : (std::min)(a, b); }
-
   /// By what its subdomain asks for, too.
   Badness_3 labelled_cell(const std::array<const Point*, 4>& p, Cell_handle c, bool with_shape) const
   {

@@ -67,12 +67,17 @@ private:
 
 namespace internal {
 
+/// The smaller of two bounds, of which 0 is none.
+inline double tighter(double a, double b)
+{
+  return a == 0 || b == 0 ? a + b : a < b ? a : b;
+}
+
 /// The smaller of two bounds at a point; 0 if there is neither.
 template <class K>
 double least_bound(const Length_field_3<K>& a, const Length_field_3<K>* b, const typename K::Point_3& p)
 {
-  const double first = a ? a(p) : 0, second = b && *b ? (*b)(p) : 0;
-  return first == 0 || second == 0 ? first + second : first < second ? first : second;
+  return tighter(a ? a(p) : 0, b && *b ? (*b)(p) : 0);
 }
 
 } // namespace internal

@@ -182,16 +182,28 @@ Validity_3 check_topology_3(const Tetrahedral_mesh_3<K>& mesh)
   return validity;
 }
 
+namespace internal {
+
+/// Checks size, shapes of the elements that a predicate doesn't exempt and, if asked for, topology.
+template <class K, class Is_exempt>
+Validity_3 check_criteria_but(const Tetrahedral_mesh_3<K>& mesh, const Criteria_3<K>& criteria,
+                              const Is_exempt& is_exempt)
+{
+  Validity_3 validity = check_sizes_3(mesh, criteria.size);
+  validity += check_shapes_but(mesh, criteria.facet_shape, criteria.cell_shape, is_exempt);
+  if (criteria.topology) validity += check_topology_3(mesh);
+  return validity;
+}
+
+} // namespace internal
+
 /// Checks size, shapes and, if asked for, topology. The approximation needs the surface: see `hausdorff_3()`. Whether
 /// the boundary is a manifold tells `check_manifold_3()` of validate_3.h. \throws Option_error if the size field
 /// returns anything but a positive finite number.
 template <class K>
 Validity_3 check_criteria_3(const Tetrahedral_mesh_3<K>& mesh, const Criteria_3<K>& criteria)
 {
-  Validity_3 validity = check_sizes_3(mesh, criteria.size);
-  validity += check_shapes_3(mesh, criteria.facet_shape, criteria.cell_shape);
-  if (criteria.topology) validity += check_topology_3(mesh);
-  return validity;
+  return internal::check_criteria_but(mesh, criteria, [](const auto&) { return false; });
 }
 
 /// The same but for shapes that small angles of the domain force.
@@ -199,10 +211,8 @@ Validity_3 check_criteria_3(const Tetrahedral_mesh_3<K>& mesh, const Criteria_3<
 template <class K, class Oracle>
 Validity_3 check_criteria_3(const Tetrahedral_mesh_3<K>& mesh, const Criteria_3<K>& criteria, const Oracle& oracle)
 {
-  Validity_3 validity = check_sizes_3(mesh, criteria.size);
-  validity += check_shapes_3(mesh, criteria.facet_shape, criteria.cell_shape, oracle);
-  if (criteria.topology) validity += check_topology_3(mesh);
-  return validity;
+  return internal::check_criteria_but(mesh, criteria,
+                                      internal::Is_forced_3<K, Oracle>(mesh, oracle, criteria.facet_shape));
 }
 
 /// Checks that every vertex on a patch or crease lies within a tolerance of its projection to it.

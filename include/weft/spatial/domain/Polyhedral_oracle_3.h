@@ -100,9 +100,7 @@ public:
     const auto t = static_cast<std::size_t>(triangle);
     const auto [behind, before] = sides(t);
     if (behind == before || (behind != subdomain && before != subdomain)) return {};
-    const auto& v = complex_.triangles[t];
-    const auto at = [&](std::size_t i) { return internal::xyz(complex_.points[v[i]]); };
-    auto n = internal::cross_product(internal::minus(at(1), at(0)), internal::minus(at(2), at(0)));
+    auto n = cross_product(t);
     const double length = internal::norm(n);
     if (!(length > 0)) return {};
     for (double& x : n) x /= behind == subdomain ? length : -length;
@@ -338,13 +336,6 @@ public:
   void visit_spread_points(std::size_t n, const Visit& visit) const
   {
     using internal::Xyz_3;
-    const auto corner = [this](std::size_t t, std::size_t i) {
-      return internal::xyz(complex_.points[complex_.triangles[t][i]]);
-    };
-    const auto cross_product = [&](std::size_t t) {
-      return internal::cross_product(internal::minus(corner(t, 1), corner(t, 0)),
-                                     internal::minus(corner(t, 2), corner(t, 0)));
-    };
     double total = 0, passed = 0;
     for (std::size_t t = 0; t < complex_.triangles.size(); ++t) total += internal::norm(cross_product(t)) / 2;
     std::size_t k = 0;
@@ -374,11 +365,8 @@ public:
     double nearest = reach;
     std::vector<Surface_hit_3<K>> hits;
     for (const double side : {-1., 1.}) {
-      const auto at = [&](double d) {
-        return Point(p.x() + side * d * normal[0], p.y() + side * d * normal[1], p.z() + side * d * normal[2]);
-      };
       hits.clear();
-      surface_.intersect(at(least), at(nearest), hits);
+      surface_.intersect(along(p, normal, side * least), along(p, normal, side * nearest), hits);
       for (const auto& hit : hits)
         nearest = (std::min)(nearest, internal::norm(internal::minus(internal::xyz(hit.point), internal::xyz(p))));
     }
@@ -395,6 +383,23 @@ private:
 
   using Triangle = internal::Surface_triangle_3<K>;
 
+  internal::Xyz_3 corner(std::size_t t, std::size_t i) const
+  {
+    return internal::xyz(complex_.points[complex_.triangles[t][i]]);
+  }
+
+  /// Normal of a triangle, twice as long as its area.
+  internal::Xyz_3 cross_product(std::size_t t) const
+  {
+    return internal::cross_product(internal::minus(corner(t, 1), corner(t, 0)),
+                                   internal::minus(corner(t, 2), corner(t, 0)));
+  }
+
+  static Point along(const Point& p, const std::array<double, 3>& direction, double d)
+  {
+    return Point(p.x() + d * direction[0], p.y() + d * direction[1], p.z() + d * direction[2]);
+  }
+
   /// Unit normal of a triangle between the domain and the outside that points outside; zero for others.
   std::array<double, 3> outward_normal(int triangle) const
   {
@@ -409,9 +414,8 @@ private:
     const std::array<double, 3> out = outward_normal(triangle);
     const double least = rounding();
     if (out == std::array<double, 3>() || !(reach > least)) return {};
-    const auto at = [&](double d) { return Point(p.x() + d * out[0], p.y() + d * out[1], p.z() + d * out[2]); };
     std::vector<Surface_hit_3<K>> hits;
-    surface_.intersect(at(least), at(reach), hits);
+    surface_.intersect(along(p, out, least), along(p, out, reach), hits);
     if (hits.empty()) return {};
     const std::array<double, 3> back = outward_normal(hits.front().triangle);
     constexpr double nearly_opposite = -0.99;

@@ -5,6 +5,7 @@
 #ifndef WEFT_SPATIAL_DOMAIN_BOUNDARY_SAMPLES_3_H
 #define WEFT_SPATIAL_DOMAIN_BOUNDARY_SAMPLES_3_H
 
+#include <weft/internal/Answers.h>
 #include <weft/spatial/domain/sharp_edges_3.h>
 
 #include <algorithm>
@@ -17,19 +18,13 @@
 
 namespace weft::internal {
 
-template <class Point>
-struct Ignore_sample_3
-{
-  void operator()(const Point&, int, const std::array<double, 3>&) const {}
-};
-
 /// Whether an oracle has samples of its boundary, with normals.
 template <class Oracle, class = void>
 struct Has_boundary_samples_3 : std::false_type
 {};
 template <class Oracle>
-struct Has_boundary_samples_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().visit_samples(
-                                          1., Ignore_sample_3<typename Oracle::Point>()))>> : std::true_type
+struct Has_boundary_samples_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().visit_samples(1., Ignore()))>>
+    : std::true_type
 {};
 
 /// Whether an oracle knows how far it is along a normal to where the boundary is met again.

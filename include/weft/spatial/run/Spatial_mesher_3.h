@@ -72,7 +72,9 @@ public:
     meet_criteria();
     start_again_where_bad();
     optimise();
-    return final_report();
+    Mesh_report_3 result = report();
+    compare_with_domain(result);
+    return result;
   }
 
   /// The first half of `run()`: refines until the criteria hold or nothing more can be done.
@@ -110,10 +112,22 @@ public:
   }
 
   /// The report so far, but for the comparison with the domain.
-  Mesh_report_3 report() { return report(false); }
+  Mesh_report_3 report()
+  {
+    run_.end_stage();
+    Mesh_report_3 result = report_;
+    run_.report(result);
+    fill_report(mesh_, criteria_, refinement_.size_floor(), result);
+    refinement_.add_earlier_queries(result);
+    return result;
+  }
 
-  /// The report at the end.
-  Mesh_report_3 final_report() { return report(true); }
+  /// Adds the comparison with the domain to a report of the mesh as it is.
+  void compare_with_domain(Mesh_report_3& report) const
+  {
+    report.domain = internal::compare_with_domain(tetrahedral_mesh(mesh_), oracle_, criteria_);
+    set_exhausted_if_bad(report);
+  }
 
   /// The mesh as it is, also while a visitor is called.
   const Restricted& mesh() const { return mesh_; }
@@ -121,16 +135,6 @@ public:
   Restricted take_mesh() { return std::move(mesh_); }
 
 private:
-  Mesh_report_3 report(bool with_domain)
-  {
-    run_.end_stage();
-    Mesh_report_3 result = report_;
-    run_.report(result);
-    fill_report(mesh_, criteria_, refinement_.size_floor(), with_domain, result);
-    refinement_.add_earlier_queries(result);
-    return result;
-  }
-
   void insert_lattice()
   {
     const double spacing = lattice_spacing * criteria_.size.constant();
@@ -174,9 +178,6 @@ private:
     if (!guard_) guard_.emplace(mesh_, criteria_);
     return *guard_;
   }
-
-  /// The smaller of two bounds, of which 0 is none.
-  static double tighter(double a, double b) { return a == 0 || b == 0 ? a + b : (std::min)(a, b); }
 
   bool coarsen()
   {

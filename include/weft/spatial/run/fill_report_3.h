@@ -86,10 +86,15 @@ Domain_comparison_3 compare_with_domain(const Tetrahedral_mesh_3<Kernel>& mesh, 
   });
 }
 
-/// Counts, worst elements and criteria of a mesh into `report`. Linear, but for the domain.
-/// \param with_domain whether the mesh is compared with its domain, too.
+/// Criteria that are met are enough only if nothing is bad and the mesh is the domain.
+inline void set_exhausted_if_bad(Mesh_report_3& report)
+{
+  if (report.stop_reason == Stop_reason::criteria_met && !report.ok()) report.stop_reason = Stop_reason::exhausted;
+}
+
+/// Counts, worst elements and criteria of a mesh into `report`. Linear.
 template <class Restricted, class Kernel>
-void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteria, double size_floor, bool with_domain,
+void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteria, double size_floor,
                  Mesh_report_3& report)
 {
   const auto mesh = tetrahedral_mesh(restricted);
@@ -113,9 +118,7 @@ void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteri
   // Where every vertex has its disk of facets, all of them between inside and outside, the boundary is a manifold.
   const bool clean = report.bad_vertices == 0 && report.bad_facets.disk == 0 && !mesh.cells.empty();
   report.manifold = clean || (!mesh.cells.empty() && check_manifold_3(mesh).ok());
-  if (with_domain) report.domain = compare_with_domain(mesh, restricted.oracle(), criteria);
-  if (report.stop_reason == Stop_reason::criteria_met && (report.bad() > 0 || !report.domain.ok()))
-    report.stop_reason = Stop_reason::exhausted;
+  set_exhausted_if_bad(report);
   report.segment_queries = restricted.counts().segments;
   report.location_queries = restricted.counts().locations;
   report.skipped_queries = restricted.counts().skipped;

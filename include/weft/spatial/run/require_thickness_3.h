@@ -7,6 +7,7 @@
 #define WEFT_SPATIAL_RUN_REQUIRE_THICKNESS_3_H
 
 #include <weft/errors.h>
+#include <weft/internal/Answers.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -22,18 +23,12 @@
 
 namespace weft::internal {
 
-template <class Point>
-struct Ignore_spread_point_3
-{
-  void operator()(const Point&, const std::array<double, 3>&, double) const {}
-};
-
 template <class Oracle, class = void>
 struct Has_spread_points_3 : std::false_type
 {};
 template <class Oracle>
-struct Has_spread_points_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().visit_spread_points(
-                                       std::size_t(1), Ignore_spread_point_3<typename Oracle::Point>()))>>
+struct Has_spread_points_3<
+    Oracle, std::void_t<decltype(std::declval<const Oracle&>().visit_spread_points(std::size_t(1), Ignore()))>>
     : std::true_type
 {};
 
