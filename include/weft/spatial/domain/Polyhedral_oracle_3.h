@@ -15,8 +15,6 @@
 
 #include <weft/errors.h>
 #include <weft/internal/boxes/coordinates_3.h>
-#include <weft/internal/boxes/farthest_points_3.h>
-#include <weft/internal/boxes/grid_points_3.h>
 #include <weft/spatial/domain/Acute_edges_3.h>
 #include <weft/spatial/domain/Crease_network_3.h>
 #include <weft/spatial/domain/Crease_shells_3.h>
@@ -25,6 +23,7 @@
 #include <weft/spatial/domain/Patched_surface_3.h>
 #include <weft/spatial/domain/Salient_features_3.h>
 #include <weft/spatial/domain/sheet_pairs_3.h>
+#include <weft/spatial/domain/surface_samples_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
@@ -40,7 +39,6 @@
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <set>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -100,7 +98,7 @@ public:
     const auto t = static_cast<std::size_t>(triangle);
     const auto [behind, before] = sides(t);
     if (behind == before || (behind != subdomain && before != subdomain)) return {};
-    auto n = cross_product(t);
+    auto n = internal::cross_product_of_triangle(complex_, t);
     const double length = internal::norm(n);
     if (!(length > 0)) return {};
     for (double& x : n) x /= behind == subdomain ? length : -length;
@@ -262,13 +260,13 @@ public:
   /// doubles have fewer points. O(n triangles).
   std::vector<Surface_hit_3<K>> patch_seeds(int patch, std::size_t n) const
   {
-    return seeds(n, [&](std::size_t t) { return complex_.patches[t] == patch; });
+    return internal::spread_seeds(complex_, n, [&](std::size_t t) { return complex_.patches[t] == patch; });
   }
 
   /// The same for a connected component of the boundary.
   std::vector<Surface_hit_3<K>> shell_seeds(int shell, std::size_t n) const
   {
-    return seeds(n, [&](std::size_t t) { return complex_.shells[t] == shell; });
+    return internal::spread_seeds(complex_, n, [&](std::size_t t) { return complex_.shells[t] == shell; });
   }
 
   /// Volumes, areas, components and Euler characteristics of the subdomains. O(n log n).
@@ -291,43 +289,7 @@ public:
   template <class Visit>
   void visit_samples(double spacing, const Visit& visit) const
   {
-    using internal::Xyz_3;
-    std::vector<char> is_visited(complex_.points.size(), false);
-    std::set<std::array<std::int64_t, 5>> seen;
-    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
-      const auto& v = complex_.triangles[t];
-      const int patch = complex_.patches[t];
-      const std::array<Xyz_3, 3> corners{{internal::xyz(complex_.points[v[0]]), internal::xyz(complex_.points[v[1]]),
-                                          internal::xyz(complex_.points[v[2]])}};
-      const std::array<Xyz_3, 3> sides{{internal::minus(corners[1], corners[0]),
-                                        internal::minus(corners[2], corners[1]),
-                                        internal::minus(corners[0], corners[2])}};
-      Xyz_3 normal = internal::cross_product(sides[0], sides[1]);
-      const double length = internal::norm(normal);
-      if (!(length > 0)) continue;
-      const auto [behind, before] = this->sides(t);
-      const double outwards = behind != 0 && (before == 0 || behind < before) ? 1 : -1;
-      for (double& n : normal) n *= outwards / length;
-      const auto is_short = [spacing](const Xyz_3& side) { return internal::norm(side) < spacing / 2; };
-      if (std::all_of(sides.begin(), sides.end(), is_short)) {
-        Xyz_3 p{};
-        std::array<std::int64_t, 5> cube{{0, 0, 0, patch, 0}};
-        for (std::size_t k = 0; k < 3; ++k) {
-          p[k] = (corners[0][k] + corners[1][k] + corners[2][k]) / 3;
-          cube[k] = static_cast<std::int64_t>(std::floor(2 * p[k] / spacing));
-          cube[4] = 2 * cube[4] + (normal[k] < 0);
-        }
-        if (seen.insert(cube).second) visit(Point(p[0], p[1], p[2]), patch, normal);
-        continue;
-      }
-      for (const std::size_t vertex : v) {
-        if (is_visited[vertex]) continue;
-        is_visited[vertex] = true;
-        visit(complex_.points[vertex], patch, Xyz_3()); // edges and tips have no normal
-      }
-      internal::for_each_grid_point(corners, spacing,
-                                    [&](const Xyz_3& p) { visit(Point(p[0], p[1], p[2]), patch, normal); });
-    }
+    internal::visit_boundary_grid(complex_, spacing, visit);
   }
 
   /// Calls `visit(point, unit normal, area)` for n points of the boundary, each of which stands for the same area.
@@ -335,24 +297,7 @@ public:
   template <class Visit>
   void visit_spread_points(std::size_t n, const Visit& visit) const
   {
-    using internal::Xyz_3;
-    double total = 0, passed = 0;
-    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) total += internal::norm(cross_product(t)) / 2;
-    std::size_t k = 0;
-    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
-      Xyz_3 normal = cross_product(t);
-      const double length = internal::norm(normal);
-      if (!(length > 0)) continue;
-      for (double& x : normal) x /= length;
-      const double n_as_double = static_cast<double>(n);
-      for (passed += length / 2; k < n && (static_cast<double>(k) + 0.5) / n_as_double * total < passed; ++k) {
-        double u = internal::radical_inverse(k + 1, 2), v = internal::radical_inverse(k + 1, 3);
-        if (u + v > 1) u = 1 - u, v = 1 - v;
-        const Xyz_3 a = corner(t, 0), ab = internal::minus(corner(t, 1), a), ac = internal::minus(corner(t, 2), a);
-        visit(Point(a[0] + u * ab[0] + v * ac[0], a[1] + u * ab[1] + v * ac[1], a[2] + u * ab[2] + v * ac[2]), normal,
-              total / n_as_double);
-      }
-    }
+    internal::visit_equal_areas(complex_, n, visit);
   }
 
   /// Distance from a point of the boundary to where the boundary is met again along a normal, on either side; at most
@@ -382,18 +327,6 @@ private:
   static constexpr double shell_angle = 29; // the same for creases that meet on a patch
 
   using Triangle = internal::Surface_triangle_3<K>;
-
-  internal::Xyz_3 corner(std::size_t t, std::size_t i) const
-  {
-    return internal::xyz(complex_.points[complex_.triangles[t][i]]);
-  }
-
-  /// Normal of a triangle, twice as long as its area.
-  internal::Xyz_3 cross_product(std::size_t t) const
-  {
-    return internal::cross_product(internal::minus(corner(t, 1), corner(t, 0)),
-                                   internal::minus(corner(t, 2), corner(t, 0)));
-  }
 
   static Point along(const Point& p, const std::array<double, 3>& direction, double d)
   {
@@ -447,12 +380,7 @@ private:
     return 16 * std::numeric_limits<double>::epsilon() * largest;
   }
 
-  /// The subdomains behind and before a triangle.
-  std::pair<int, int> sides(std::size_t t) const
-  {
-    return complex_.sides.empty() ? std::make_pair(1, 0)
-                                  : complex_.sides[static_cast<std::size_t>(complex_.patches[t])];
-  }
+  std::pair<int, int> sides(std::size_t t) const { return internal::sides_of_triangle(complex_, t); }
 
   void build_surface()
   {
@@ -527,36 +455,6 @@ private:
     for (std::size_t i = 0; i < number_of_corners(); ++i)
       corners.push_back({corner(i), corner(i), static_cast<int>(i)});
     corners_ = internal::Segment_hierarchy_3<K>(corners);
-  }
-
-  template <class Belongs>
-  std::vector<Surface_hit_3<K>> seeds(std::size_t n, const Belongs& belongs) const
-  {
-    std::vector<bool> excluded(complex_.points.size(), false);
-    for (const auto& crease : complex_.creases)
-      for (const std::size_t v : crease.vertices) excluded[v] = true;
-    for (const auto& feature : complex_.features) excluded[feature.vertex] = true;
-    std::vector<internal::Candidate<Point>> candidates, chosen;
-    constexpr int finest = 64; // parts of a side: 4096 points in each triangle
-    for (int parts = 1; parts <= finest && chosen.size() < n; parts *= 2) {
-      for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
-        if (!belongs(t)) continue;
-        const auto& v = complex_.triangles[t];
-        for (const std::size_t vertex : v) {
-          if (excluded[vertex]) continue;
-          excluded[vertex] = true; // taken
-          candidates.push_back({complex_.points[vertex], t});
-        }
-        internal::for_each_centroid(complex_.points[v[0]], complex_.points[v[1]], complex_.points[v[2]], parts - 1,
-                                    [&](const Point& x) {
-                                      candidates.push_back({x, t});
-                                    });
-      }
-      if (candidates.size() >= n || 2 * parts > finest) chosen = internal::farthest_points(candidates, n);
-    }
-    std::vector<Surface_hit_3<K>> result;
-    for (const auto& candidate : chosen) result.push_back({candidate.first, complex_.patches[candidate.second]});
-    return result;
   }
 
   Piecewise_smooth_complex_3<K> complex_;

@@ -91,14 +91,16 @@ Domain_comparison_3 check_domain_3(const Tetrahedral_mesh_3<K>& mesh, const Orac
 {
   using Point = typename K::Point_3;
   constexpr bool is_number = std::is_convertible_v<const Approximation&, double>;
-  double largest_bound = 0; // of the places looked at; infinite if there is none at some
+  // Of the places of patches that were looked at; infinite if there is none at some. Creases count for no volume.
+  double largest_bound = 0;
   const auto bound_at = [&](const Point& p, int patch) {
     double bound = 0;
     if constexpr (is_number)
-      bound = static_cast<double>(approximation), static_cast<void>(p), static_cast<void>(patch);
+      bound = static_cast<double>(approximation), static_cast<void>(p);
     else
       bound = approximation(p, patch);
-    largest_bound = std::max(largest_bound, bound > 0 ? bound : std::numeric_limits<double>::infinity());
+    if (patch >= 0)
+      largest_bound = std::max(largest_bound, bound > 0 ? bound : std::numeric_limits<double>::infinity());
     return bound;
   };
   Domain_comparison_3 result;
