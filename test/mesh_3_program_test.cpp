@@ -287,6 +287,30 @@ TEST_CASE("a run that stops early gives status 2, says why, and writes the mesh 
   CHECK(count_in_medit(folder.read("m.mesh"), "Tetrahedra") > 0);
 }
 
+TEST_CASE("without --output it is said that no mesh is written; a full device is an error, whatever is written to it")
+{
+  const Folder folder("full");
+  CHECK(contains(folder.run("cube.off --size 0.5").out, "no mesh is written"));
+  CHECK(!contains(folder.run("cube.off --size 0.5 --output m.mesh").out, "no mesh is written"));
+  if (!program::fs::exists("/dev/full")) return;
+  for (const std::string arguments :
+       {"--output full.mesh", "--output full.vtu", "--output full.msh", "--output full.off", "--output full.stl",
+        "--report full.json", "--histogram full.svg"}) {
+    const std::string name = arguments.substr(arguments.find(' ') + 1);
+    const program::fs::path link = program::fs::current_path() / "mesh_3_program_test_full" / name;
+    program::fs::create_symlink("/dev/full", link);
+    const Outcome outcome = folder.run("cube.off --size 0.5 " + arguments);
+    INFO(arguments << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(is_one_line(outcome.err));
+    CHECK(contains(outcome.err, name + ": writing failed"));
+    program::fs::remove(link);
+  }
+  const Outcome standard_output = folder.run("cube.off --size 0.5", "sh -c '\"$0\" \"$@\" >/dev/full'");
+  CHECK(standard_output.status == 1);
+  CHECK(contains(standard_output.err, "standard output can't be written"));
+}
+
 TEST_CASE("a smallest dihedral angle that isn't reached gives status 2 and says what was reached")
 {
   const Folder folder("dihedral");
