@@ -51,9 +51,7 @@ std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames,
   std::vector<weft::Polygon_soup_3<K>> surfaces;
   for (const std::string& name : filenames) surfaces.push_back(weft::IO::read_surface<K>(name));
   if (mending.strict) return std::make_unique<Surface_domain>(weft::piecewise_smooth_complex(surfaces, features));
-  using Repair = weft::Polygon_soup_3<K>::Repair;
-  return std::make_unique<Surface_domain>(
-      weft::mended_complex_3(surfaces, features, mending.options, mending.repair ? Repair(repair) : Repair()));
+  return std::make_unique<Surface_domain>(weft::mended_complex_3(surfaces, features, mending.options));
 }
 
 // ---- Results

@@ -66,7 +66,7 @@ struct Mending_record_3
     note(snapped, "point was moved onto planes that it nearly lay in",
          "points were moved onto planes that they nearly "
          "lay in");
-    note(cut, "pair of facets that intersect was cut", "pairs of facets that intersect were cut");
+    note(cut, "pair of facets that intersect or touch was cut", "pairs of facets that intersect or touch were cut");
     note(holes, "hole was capped", "holes were capped",
          std::string(", ") + (holes == 1 ? "its cap is " : "their caps are ") + percent(area_of_caps / area) +
              " of the area");

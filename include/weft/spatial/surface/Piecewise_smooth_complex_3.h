@@ -62,7 +62,7 @@ struct Piecewise_smooth_complex_3
   int number_of_patches = 0;
   int number_of_shells = 0;
   std::vector<std::string> changes; ///< what was changed in the input, for people, one line each: shells turned over,
-                                    ///< repairs; empty if nothing
+                                    ///< what was mended; empty if nothing
 };
 
 } // namespace weft

@@ -7,7 +7,8 @@
 #ifndef WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
 #define WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
 
-#include <weft/spatial/surface/has_odd_parts_3.h>
+#include <weft/internal/Disjoint_parts.h>
+#include <weft/spatial/surface/has_all_parts_3.h>
 #include <weft/spatial/surface/interface_complex_3.h>
 #include <weft/spatial/surface/Mend_options_3.h>
 #include <weft/spatial/surface/mend_surface_3.h>
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -87,15 +89,24 @@ inline Feature_options by_angle_only(Feature_options options)
 template <class K>
 struct Resolved_surface_3
 {
-  Triangle_surface_3<K> given; ///< before, without what bounds nothing
+  Surface_parts_3<K> given; ///< before, without what bounds nothing
   Polygon_soup_3<K> soup;
   Mending_record_3 record; ///< of what was done before
 };
 
-/// Cuts facets where they meet, within each surface and between them. \throws Domain_error.
+/// Tolerances for facets that nearly lie in one plane, in parts of the diagonal: none, rounding, all that is allowed.
+inline std::vector<double> snappings(const Mend_options_3& mending)
+{
+  constexpr double rounding = 1e-12;
+  if (mending.tolerance > rounding) return {0, rounding, mending.tolerance};
+  return {0, rounding};
+}
+
+/// Cuts facets where they meet, within each surface and between them. \param snapping see `snappings()`.
+/// \throws Domain_error.
 template <class K>
 std::vector<Resolved_surface_3<K>> resolve(const std::vector<Polygon_soup_3<K>>& soups, const Mend_options_3& mending,
-                                           bool with_caps)
+                                           bool with_caps, double snapping = 0)
 {
   std::vector<Resolved_surface_3<K>> result;
   Triangle_surface_3<K> all;
@@ -105,19 +116,37 @@ std::vector<Resolved_surface_3<K>> resolve(const std::vector<Polygon_soup_3<K>>&
     const Triangle_surface_3<K> surface = mender.cleaned(bounds_nothing);
     result.emplace_back();
     result.back().record = mender.record();
-    result.back().given.points = surface.points;
+    result.back().given.surface.points = surface.points;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      if (!bounds_nothing[t]) result.back().given.triangles.push_back(surface.triangles[t]);
+      if (!bounds_nothing[t]) {
+        result.back().given.surface.triangles.push_back(surface.triangles[t]);
+        result.back().given.part.push_back(all.triangles.size() + t); // so far, the number in `all`
+      }
     for (const auto& [a, b, c] : surface.triangles)
       all.triangles.push_back({a + all.points.size(), b + all.points.size(), c + all.points.size()});
     all.points.insert(all.points.end(), surface.points.begin(), surface.points.end());
     all.origins.resize(all.triangles.size(), s);
   }
-  const std::size_t cut = Intersection_resolver_3<K>(all).resolve();
+  CGAL::Bbox_3 box;
+  for (const auto& p : all.points) box += p.bbox();
+  Disjoint_parts parts(all.triangles.size()), groups(all.triangles.size());
+  for_each_edge(sorted_sides(all.triangles), [&](auto first, auto last) {
+    for (auto other = first + 1; other != last; ++other) parts.unite(first->triangle, other->triangle);
+  });
+  const std::vector<std::size_t> surface_of = all.origins;
+  Intersection_resolver_3<K> resolver(all, snapping * std::hypot(box.x_span(), box.y_span(), box.z_span()));
+  const std::size_t cut = resolver.resolve();
   if (cut == 0) throw Domain_error("no facets intersect", {}, {});
+  for (const auto& [a, b] : resolver.pairs())
+    if (surface_of[a] == surface_of[b]) groups.unite(parts.find(a), parts.find(b));
   for (auto& surface : result) {
+    for (std::size_t& t : surface.given.part) {
+      t = parts.find(t);
+      surface.given.group.push_back(groups.find(t));
+    }
     surface.soup.points = all.points;
     surface.record.cut = cut;
+    surface.record.snapped = resolver.snapped();
   }
   for (std::size_t t = 0; t < all.triangles.size(); ++t) {
     const auto& [a, b, c] = all.triangles[t];
@@ -134,7 +163,7 @@ Piecewise_smooth_complex_3<K> complex_of_resolved(const Resolved_surface_3<K>& r
   std::string what;
   for (const bool everywhere : {false, true}) try {
       auto mended = Surface_mender_3<K>(resolved.soup, mending).mend(everywhere, true);
-      if (!has_odd_parts(resolved.given, mended.surface, mended.sides))
+      if (!has_all_parts(resolved.given, mended.surface, mended.sides))
         throw Domain_error("parts would get lost where facets meet", {}, {});
       mended.record.equal_points = 0; // copies in the pieces
       mended.record.duplicate = 0;
@@ -164,11 +193,11 @@ Piecewise_smooth_complex_3<K> mend_complex(const Polygon_soup_3<K>& soup, const 
         if (!everywhere) remains = error.what(); // with caps, if there are any: that comes nearer to a domain
       }
     }
-    try {
-      const auto resolved = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending, with_caps);
-      return complex_of_resolved(resolved[0], by_angle_only(options), mending);
-    } catch (const Domain_error&) {
-    }
+    for (const double snapping : snappings(mending)) try {
+        const auto resolved = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending, with_caps, snapping);
+        return complex_of_resolved(resolved[0], by_angle_only(options), mending);
+      } catch (const Domain_error&) {
+      }
   }
   if (remains == failure.what()) throw failure;
   throw Domain_error(std::string(failure.what()) + "; mended as far as can be: " + remains, failure.vertices(),
@@ -181,21 +210,24 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
                                                 const Feature_options& options, const Mend_options_3& mending,
                                                 const Domain_error& failure)
 {
-  try {
-    options.check();
-    mending.check();
-    auto resolved = resolve(surfaces, mending, mending.most_capped > 0);
-    const std::size_t cut = resolved[0].record.cut;
-    for (auto& surface : resolved) surface.record.cut = 0;
-    auto complex = merge_surfaces(resolved, options, [&](const Resolved_surface_3<K>& surface) {
-      return complex_of_resolved(surface, by_angle_only(options), mending);
-    });
-    complex.changes.insert(complex.changes.begin(), counted(cut, "pair of facets that intersect or touch was cut",
-                                                            "pairs of facets that intersect or touch were cut"));
-    return complex;
-  } catch (const Domain_error&) {
-    throw failure;
-  }
+  options.check();
+  mending.check();
+  for (const double snapping : snappings(mending)) try {
+      auto resolved = resolve(surfaces, mending, mending.most_capped > 0, snapping);
+      const std::size_t cut = resolved[0].record.cut, snapped = resolved[0].record.snapped;
+      for (auto& surface : resolved) surface.record.cut = surface.record.snapped = 0;
+      auto complex = merge_surfaces(resolved, options, [&](const Resolved_surface_3<K>& surface) {
+        return complex_of_resolved(surface, by_angle_only(options), mending);
+      });
+      Mending_record_3 common;
+      common.cut = cut;
+      common.snapped = snapped;
+      const auto lines = common.lines();
+      complex.changes.insert(complex.changes.begin(), lines.begin(), lines.end());
+      return complex;
+    } catch (const Domain_error&) {
+    }
+  throw failure;
 }
 
 } // namespace internal
@@ -237,8 +269,7 @@ Piecewise_smooth_complex_3<K> mended_complex_3(const Polygon_soup_3<K>& soup, co
 /// accordingly.
 template <class K>
 Piecewise_smooth_complex_3<K> mended_complex_3(const std::vector<Polygon_soup_3<K>>& surfaces,
-                                               const Feature_options& options = {}, const Mend_options_3& mending = {},
-                                               const typename Polygon_soup_3<K>::Repair& repair = {})
+                                               const Feature_options& options = {}, const Mend_options_3& mending = {})
 {
   const auto complex_of = [&](const Polygon_soup_3<K>& surface) { return mended_complex_3(surface, options, mending); };
   if (surfaces.size() < 2) return internal::merge_surfaces(surfaces, options, complex_of);
