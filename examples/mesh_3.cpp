@@ -13,6 +13,7 @@
 #include <weft/errors.h>
 #include <weft/internal/counted.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/surface/Mending_record_3.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -211,6 +212,9 @@ std::string what_is_missing(const Request& request, const weft::Mesh_report_3& r
   if (request.bounds.manifold && !report.manifold) append_to_list(text, "the boundary isn't a manifold");
   if (!report.domain.has_surface())
     append_to_list(text, std::to_string(report.domain.missed()) + " points of the boundary are missed");
+  if (!report.given.ok())
+    append_to_list(text, weft::Mending_record_3::percent(report.given.missed_share()) +
+                             " of the input's area is far from the mesh");
   for (const weft::Subdomain_comparison_3& s : report.domain.subdomains) {
     const std::string of_subdomain =
         report.domain.subdomains.size() > 1 ? " of subdomain " + std::to_string(s.subdomain) : "";

@@ -35,8 +35,9 @@ struct Mended_surface_3
   std::vector<std::pair<int, int>> sides;         ///< the subdomains behind and before each triangle
   std::vector<std::size_t> place;                 ///< which point each of the caller's is now
   std::vector<std::array<std::size_t, 2>> curves; ///< edges where parts that were united cross, unless flat
-  std::vector<std::size_t> pinches;               ///< vertices that are in several fans of triangles
-  bool is_manifold = false; ///< two triangles meet in each edge, and the outside is before all of them
+  std::vector<std::array<typename K::Point_3, 3>> left_out;
+  std::vector<std::size_t> pinches; ///< vertices that are in several fans of triangles
+  bool is_manifold = false;         ///< two triangles meet in each edge, and the outside is before all of them
   Mending_record_3 record;
 }; /// See the top of the file. \tparam K a CGAL kernel with exact predicates.
 template <class K>
@@ -174,6 +175,10 @@ private:
     if (!(std::abs(kept - check_area_) <= Base::tolerance_ * Base::perimeters_ + 1e-9 * check_area_))
       throw Domain_error("facets would get lost", {}, {});
     if (is_union) result.curves = crossing_curves(all, regions, result.surface);
+    for (const std::size_t t : left_out) {
+      const auto& [a, b, c] = facets_[t].corners;
+      result.left_out.push_back({points_[a], points_[b], points_[c]});
+    }
     result.surface.points = std::move(points_);
     result.place = std::move(Base::place_);
     describe(result);

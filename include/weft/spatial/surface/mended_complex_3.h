@@ -74,6 +74,7 @@ Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, cons
     complex = interface_complex_3(std::move(mended.surface), mended.sides, relocated);
   }
   complex.changes.insert(complex.changes.begin(), notes.begin(), notes.end());
+  complex.left_out = std::move(mended.left_out);
   return complex;
 }
 
