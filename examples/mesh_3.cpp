@@ -13,6 +13,7 @@
 #include <weft/errors.h>
 #include <weft/internal/counted.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/surface/Mending_record_3.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -39,7 +40,7 @@ using mesh_3_program::Result;
 const std::string before_options =
     "usage: mesh_3 INPUT... [--size [LABEL:]S]... [--approximation [LABEL:]E]... [--facet-shape R] [--cell-shape R]\n"
     "              [--sharp-angle DEG] [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb]\n"
-    "              [--strict] [--weld PART] [--repair] [--iso VALUE] [--inside above|below] [--labels]\n"
+    "              [--strict] [--weld PART] [--cap SHARE] [--iso VALUE] [--inside above|below] [--labels]\n"
     "              [--name LABEL:NAME]...\n"
     "              [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
@@ -48,7 +49,8 @@ const std::string before_options =
     "INPUT is an\nimage, .inr, .inr.gz or .hdr: of labels, of which each but 0 is a subdomain, or with --iso of grey "
     "values. Lengths are in the input's "
     "units, or with a\ntrailing % in parts of its bounding box diagonal.\n\n"
-    "A surface with seams, facets turned over, there twice, degenerate or crossing, fins or walls inside is mended; "
+    "A surface with seams, facets turned over, there twice, degenerate or crossing, fins, holes or walls inside is "
+    "mended; "
     "notes say\nwhat was done. Walls and edges where parts touch divide it into subdomains.\n";
 
 const std::string after_options =
@@ -102,8 +104,8 @@ void add_options(command_line::Options& options, Request& request)
   options.number("--weld", "PART", 0, 0.01, request.mending.options.tolerance,
                  "where facets don't fit together, points are welded within this part of the bounding\nbox diagonal "
                  "(default 1e-6)");
-  options.flag("--repair", request.mending.repair,
-               "where mending doesn't suffice, fill holes and remove self-intersections as CGAL does");
+  options.number("--cap", "SHARE", 0, 0.9, request.mending.options.most_capped,
+                 "holes are capped, if caps are at most this part of the area (default 0.3); 0 for none");
   options.number("--iso", "VALUE", -most, most, request.iso,
                  "take an image for grey values or signed distances: the value on the boundary of the\ndomain, "
                  "interpolated between voxels");
@@ -165,8 +167,8 @@ void check(const command_line::Options& options, Request& request)
   check_shape(options, "--facet-shape", request.bounds.facet_shape);
   check_shape(options, "--cell-shape", request.bounds.cell_shape);
   command_line::check_min_dihedral(options, request.min_dihedral);
-  if (request.mending.strict && (request.mending.repair || options.has("--weld")))
-    throw Error("--strict excludes --weld and --repair");
+  if (request.mending.strict && (options.has("--weld") || options.has("--cap")))
+    throw Error("--strict excludes --weld and --cap");
   check_labels(request);
   if (options.has("--iso")) request.image.iso = request.iso;
   check_image_options(request);
@@ -210,6 +212,9 @@ std::string what_is_missing(const Request& request, const weft::Mesh_report_3& r
   if (request.bounds.manifold && !report.manifold) append_to_list(text, "the boundary isn't a manifold");
   if (!report.domain.has_surface())
     append_to_list(text, std::to_string(report.domain.missed()) + " points of the boundary are missed");
+  if (!report.given.ok())
+    append_to_list(text, weft::Mending_record_3::percent(report.given.missed_share()) +
+                             " of the input's area is far from the mesh");
   for (const weft::Subdomain_comparison_3& s : report.domain.subdomains) {
     const std::string of_subdomain =
         report.domain.subdomains.size() > 1 ? " of subdomain " + std::to_string(s.subdomain) : "";
@@ -252,13 +257,11 @@ std::unique_ptr<Domain> read_domain(const Request& request)
     return domain;
   } catch (const weft::Domain_error& error) {
     const std::string what = error.what();
-    std::string advice;
-    if (is_image)
-      advice = "";
-    else if (request.mending.strict)
+    const char* advice = "";
+    if (!is_image && request.mending.strict)
       advice = "; without --strict it would be mended if that can be";
-    else if (!request.mending.repair && what.find("give it a thickness") == std::string::npos)
-      advice = "; --repair tries to set it right";
+    else if (what.find("caps of its holes would be") != std::string::npos)
+      advice = ", or allow more with --cap";
     throw Error(request.input() + ": " + what + advice);
   }
 }

@@ -42,7 +42,7 @@ Complex mended(const Surface& s, const weft::Mend_options_3& options = {})
 bool is_accepted(const Surface& s)
 {
   try {
-    weft::piecewise_smooth_complex(s.points, s.triangles, weft::Feature_options{}, {});
+    weft::piecewise_smooth_complex(s.points, s.triangles, weft::Feature_options{});
   } catch (const weft::Domain_error&) {
     return false;
   }
@@ -217,7 +217,7 @@ double add_fins(Surface& s, Random& random, std::size_t n)
 /// The mended surface is closed, its facets look outwards, and it has this volume, area and number of shells.
 void check_is(const Complex& complex, const Surface& clean, double tolerance)
 {
-  const Complex expected = weft::piecewise_smooth_complex(clean.points, clean.triangles, weft::Feature_options{}, {});
+  const Complex expected = weft::piecewise_smooth_complex(clean.points, clean.triangles, weft::Feature_options{});
   const Surface before{expected.points, expected.triangles}, after{complex.points, complex.triangles};
   const double size = diagonal(clean);
   CHECK(complex.sides.empty());
@@ -236,7 +236,7 @@ TEST_CASE("surfaces without faults are the same with mending as without")
     Random random(seed);
     const Surface s = random_surface(random);
     const Complex with = mended(s),
-                  without = weft::piecewise_smooth_complex(s.points, s.triangles, weft::Feature_options{}, {});
+                  without = weft::piecewise_smooth_complex(s.points, s.triangles, weft::Feature_options{});
     CHECK(with.points == without.points);
     CHECK(with.triangles == without.triangles);
     CHECK(with.patches == without.patches);

@@ -150,18 +150,22 @@ TEST_CASE("bad usage gives status 1, one line on stderr and no file")
   }
 }
 
-TEST_CASE("a surface that isn't closed is refused with its edges named, and repaired where that is asked for")
+TEST_CASE("a hole is capped with a note, and refused with its edges named where that isn't wanted")
 {
   const Folder folder("open");
-  const Outcome refused = folder.run("open.off --size 0.5 --output m.mesh");
-  CHECK(refused.status == 1);
-  CHECK(is_one_line(refused.err));
-  CHECK(contains(refused.err, "--repair"));
-  CHECK(contains(refused.err, "4-5"));
-  CHECK(folder.new_files().empty());
-  const Outcome repaired = folder.run("open.off --size 0.5 --repair --report r.json");
-  CHECK(repaired.status == 0);
-  CHECK(contains(repaired.err, "hole")); // what was changed
+  for (const char* option : {"--strict", "--cap 0", "--cap 0.1"}) {
+    INFO(option);
+    const Outcome refused = folder.run(std::string("open.off --size 0.5 --output m.mesh ") + option);
+    CHECK(refused.status == 1);
+    CHECK(is_one_line(refused.err));
+    CHECK(contains(refused.err, "4-5"));
+    CHECK(folder.new_files().empty());
+  }
+  CHECK(contains(folder.run("open.off --cap 0.1").err, "caps of its holes would be 17 % of the area"));
+  CHECK(contains(folder.run("open.off --cap 0.1").err, "--cap"));
+  const Outcome capped = folder.run("open.off --size 0.5 --report r.json");
+  CHECK(capped.status == 0);
+  CHECK(contains(capped.err, "hole was capped, its cap is 17 % of the area"));
   CHECK(number(folder.read("r.json"), "volume") == Approx(1));
 }
 
@@ -185,7 +189,7 @@ TEST_CASE("dirt is mended with a note for each thing done, and refused with --st
   CHECK(strict.status == 1);
   CHECK(is_one_line(strict.err));
   CHECK(folder.files().count("s.mesh") == 0);
-  CHECK(folder.run("dirt.off --strict --repair").status == 1);
+  CHECK(folder.run("dirt.off --strict --cap 0.2").status == 1);
   folder.write("mixed.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   CHECK(folder.run("mixed.off --size 0.5 --strict --output s.mesh").status == 1);
   CHECK(folder.run("mixed.off --size 0.5 --output u.mesh").status == 0);
@@ -236,7 +240,6 @@ TEST_CASE("a sheet is refused with advice that can help")
   CHECK(outcome.status == 1);
   CHECK(is_one_line(outcome.err));
   CHECK(contains(outcome.err, "a sheet: give it a thickness"));
-  CHECK(!contains(outcome.err, "--repair"));
   CHECK(folder.files().count("m.mesh") == 0);
 }
 
@@ -352,7 +355,7 @@ TEST_CASE("help and version go to stdout, and the help names every option of the
   for (const char* option : {"--size",       "--approximation", "--facet-shape",  "--cell-shape",  "--sharp-angle",
                              "--topology",   "--manifold",      "--min-dihedral", "--no-optimise", "--no-perturb",
                              "--output",     "--report",        "--histogram",    "--seed",        "--threads",
-                             "--time-limit", "--quiet",         "--repair",       "--strict",      "--weld"})
+                             "--time-limit", "--quiet",         "--cap",          "--strict",      "--weld"})
     CHECK(contains(help.out, std::string("\n  ") + option));
   CHECK(version.status == 0);
   CHECK(version.out == "mesh_3 (weft) " WEFT_VERSION "\n");

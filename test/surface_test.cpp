@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Properties of reading surfaces and of deriving piecewise smooth complexes from them: creases, patches, shells and
-// feature vertices agree with brute force; whatever doesn't qualify is refused with the right elements named, or
-// repaired.
+// feature vertices agree with brute force; whatever doesn't qualify is refused with the right elements named.
 
 #include "fixtures/surfaces_3.h"
 
 #include <weft/IO/read_surface.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
-#include <weft/spatial/surface/repair_surface_3.h>
 
 #include <catch2/catch.hpp>
 #include <CGAL/Polyhedron_3.h>
@@ -895,84 +893,6 @@ TEST_CASE("random damage to good surfaces is always found")
   }
 }
 
-// ---- Repair
-
-TEST_CASE("a repair is tried on request only, and says what it changed")
-{
-  const Soup good = soup_of(box(2, 2, 2));
-  const Soup::Repair repair = weft::repair_surface<K>;
-  CHECK(weft::piecewise_smooth_complex(good, 60, repair).changes.empty());
-
-  Soup soup = good;
-  const char* expected = "";
-  SECTION("triangles with corners of their own")
-  {
-    soup = {};
-    for (const auto& polygon : good.polygons) {
-      soup.polygons.emplace_back();
-      for (const std::size_t v : polygon) {
-        soup.polygons.back().push_back(soup.points.size());
-        soup.points.push_back(good.points[v]);
-      }
-    }
-    expected = "coincident points merged";
-  }
-  SECTION("flipped facets")
-  {
-    std::swap(soup.polygons[3][0], soup.polygons[3][1]);
-    std::swap(soup.polygons[9][0], soup.polygons[9][1]);
-    expected = "2 facets turned over";
-  }
-  SECTION("repeated facets")
-  {
-    soup.polygons.push_back(soup.polygons[5]);
-    expected = "1 duplicate facet removed";
-  }
-  SECTION("degenerate facets")
-  {
-    soup.polygons.push_back({0, 0, 1});
-    soup.polygons.push_back({1});
-    expected = "2 degenerate facets removed";
-  }
-  SECTION("missing facets")
-  {
-    soup.polygons.pop_back();
-    expected = "1 hole filled";
-  }
-  SECTION("corners that aren't finite or don't exist")
-  {
-    soup.points.emplace_back(std::nan(""), 0, 0);
-    soup.polygons.push_back({0, 1, soup.points.size() - 1});
-    soup.polygons.push_back({0, 1, 12345});
-    expected = "2 facets with impossible corners removed";
-  }
-  CHECK_THROWS_AS(weft::piecewise_smooth_complex(soup, 60), weft::Domain_error);
-  weft::Feature_options options(60);
-  options.tips_and_cusps = {0}; // a corner anyway: must be found again
-  const Complex complex = weft::piecewise_smooth_complex(soup, options, repair);
-  INFO((complex.changes.empty() ? std::string() : complex.changes[0]));
-  CHECK(std::any_of(complex.changes.begin(), complex.changes.end(), [&](const std::string& line) {
-    return line.find(expected) != std::string::npos && line.find('\n') == std::string::npos;
-  }));
-  CHECK(volume(complex.points, complex.triangles) == Approx(8));
-  CHECK(complex.creases.size() == 12);
-  check_complex(complex, sharp_edges_of(complex, 60));
-}
-
-TEST_CASE("what a repair can't mend is refused with the caller's own elements")
-{
-  const Surface s = together(box(2, 2, 2), moved(box(2, 2, 2), 1, 1.1, 1.2, 1.3)); // two solids through each other
-  Refusal plain = refusal_of(s);
-  try {
-    weft::piecewise_smooth_complex(soup_of(s), 60, weft::repair_surface<K>);
-    FAIL("accepted");
-  } catch (const weft::Domain_error& error) {
-    CHECK(std::string(error.what()).find("after repair") != std::string::npos);
-    CHECK(error.elements() == plain.facets);
-    CHECK(error.vertices() == plain.vertices);
-  }
-}
-
 // ---- Files
 
 TEST_CASE("every format gives the surface back")
@@ -1078,22 +998,4 @@ TEST_CASE("OFF files may have colours, a header of their own, or none")
     CHECK(weft::piecewise_smooth_complex(weft::IO::read_surface<K>(file.name)).triangles.size() == 4);
   }
   CHECK(!message_of_reading("off", "4OFF\n" + body).empty());
-}
-
-TEST_CASE("a surface that intersects itself in too many facets is left as it is by repair")
-{
-  const std::size_t n = 100;
-  Soup soup = soup_of(together(torus(n, n), moved(torus(n, n), 1, 1e-3, 0, 0)));
-  const std::size_t facets = soup.polygons.size(), points = soup.points.size();
-  const auto changes = weft::repair_surface<K>(soup);
-  REQUIRE(changes.size() == 1);
-  CHECK(changes[0].find("self-intersections left") == 0);
-  CHECK(soup.polygons.size() == facets);
-  CHECK(soup.points.size() == points);
-}
-
-TEST_CASE("facets that stay degenerate don't break repair")
-{
-  const Soup soup = weft::IO::read_surface<K>(WEFT_TEST_DATA_DIR "/merged_vertices.off");
-  CHECK_THROWS_AS(weft::piecewise_smooth_complex(soup, 60, weft::repair_surface<K>), weft::Domain_error);
 }

@@ -165,7 +165,7 @@ std::string surface_options(Random& random)
   const auto one_in = [&](std::size_t n) { return below(random, n) == 0; };
   options << "--size " << 100 * power(random, -1.5, 0.5) << "% --max-vertices 20000 --seed " << below(random, 100);
   if (one_in(3)) options << " --approximation " << 100 * power(random, -3, -1) << "%";
-  if (one_in(2)) options << " --repair";
+  if (one_in(4)) options << " --cap 0";
   if (one_in(4)) options << " --sharp-angle " << uniform(random, 0, 180);
   if (one_in(4)) options << " --topology";
   if (one_in(4)) options << " --manifold";

@@ -84,8 +84,8 @@ void optimise(const std::string& stage, const Request& r, Cgal_complex& complex,
 
 void run(const Request& r)
 {
-  const Complex input = weft::piecewise_smooth_complex(weft::IO::read_surface<Spatial_kernel>(r.file), r.sharp_angle,
-                                                       weft::repair_surface<Spatial_kernel>);
+  const Complex input =
+      weft::mended_complex_3(weft::IO::read_surface<Spatial_kernel>(r.file), weft::Feature_options(r.sharp_angle));
   Cgal_polyhedron surface = polyhedron(input);
   Cgal_domain domain(surface);
   if (!input.creases.empty()) domain.detect_features(r.sharp_angle);

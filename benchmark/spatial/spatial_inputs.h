@@ -6,8 +6,8 @@
 #define WEFT_BENCHMARK_SPATIAL_SPATIAL_INPUTS_H
 
 #include <weft/IO/read_surface.h>
+#include <weft/spatial/surface/mended_complex_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
-#include <weft/spatial/surface/repair_surface_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -104,7 +104,7 @@ inline Soup cylinder(std::size_t sides)
   return soup;
 }
 
-/// Scales a surface to a longest side of 1 and makes a domain of it. One that isn't a closed surface is repaired if
+/// Scales a surface to a longest side of 1 and makes a domain of it. One that isn't a closed surface is mended if
 /// that is possible.
 /// \throws weft::Domain_error if it isn't.
 inline Spatial_input make_input(const std::string& name, Soup soup, double sharp_angle)
@@ -114,7 +114,7 @@ inline Spatial_input make_input(const std::string& name, Soup soup, double sharp
   const double longest = std::max({box.x_span(), box.y_span(), box.z_span()});
   for (auto& p : soup.points)
     p = {(p.x() - box.xmin()) / longest, (p.y() - box.ymin()) / longest, (p.z() - box.zmin()) / longest};
-  return {name, sharp_angle, weft::piecewise_smooth_complex(soup, sharp_angle, weft::repair_surface<Spatial_kernel>)};
+  return {name, sharp_angle, weft::mended_complex_3(soup, weft::Feature_options(sharp_angle))};
 }
 
 inline Spatial_input read_input(const std::string& file, double sharp_angle)

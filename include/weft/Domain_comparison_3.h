@@ -67,6 +67,31 @@ struct Domain_comparison_3
   bool ok() const { return has_surface() && has_volumes() && has_topology(); }
 };
 
+/// A mesh beside surfaces as they were given, before they were mended.
+struct Given_comparison_3
+{
+  bool is_known = false; ///< whether they were compared
+  double area = 0;       ///< of the surfaces, in the input's units
+  double missed_area =
+      0; ///< of what is farther from the mesh than the tolerance and neither was left out nor lies within
+  double area_left_out = 0;    ///< of fins and sheets that were left out and are farther away
+  double tolerance = 0;        ///< in the input's units
+  double largest_distance = 0; ///< of what is missed
+
+  double missed_share() const { return area > 0 ? missed_area / area : 0; }
+  /// Whether at most 0.5 % of the area is missed.
+  bool ok() const { return missed_share() <= 0.005; }
+};
+
+/// What is missed, in a line; nothing where nothing is.
+inline std::ostream& operator<<(std::ostream& out, const Given_comparison_3& c)
+{
+  if (c.missed_area > 0)
+    out << 100 * c.missed_share() << " % of the area as given is farther than " << c.tolerance
+        << " from the mesh, up to " << c.largest_distance << "\n";
+  return out;
+}
+
 /// What differs, a line each; nothing where nothing does.
 inline std::ostream& operator<<(std::ostream& out, const Domain_comparison_3& c)
 {

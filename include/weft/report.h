@@ -97,6 +97,7 @@ struct Mesh_report_3
   std::size_t bad_vertices = 0; ///< vertices without a topological disk of boundary facets or crease edges
   std::size_t bare_patches = 0; ///< patches without a boundary facet
   Domain_comparison_3 domain;   ///< the mesh beside its domain: what is missing; made at the end
+  Given_comparison_3 given; ///< the mesh beside surfaces before they were mended, if `compare_with_given_3()` was asked
 
   std::size_t creases_given_up = 0; ///< that were found by angle, since criteria couldn't hold with them
 
@@ -126,7 +127,7 @@ struct Mesh_report_3
     return bad_edges.elements + bad_facets.elements + bad_cells.elements + bad_vertices + bare_patches;
   }
   /// Whether every requested criterion holds, and the mesh is the whole domain, as far as the oracle knows that.
-  bool ok() const { return stop_reason == Stop_reason::criteria_met && bad() == 0 && domain.ok(); }
+  bool ok() const { return stop_reason == Stop_reason::criteria_met && bad() == 0 && domain.ok() && given.ok(); }
 };
 
 /// Several lines for a person.
@@ -164,7 +165,7 @@ WEFT_COLD inline std::ostream& operator<<(std::ostream& out, const Mesh_report_3
         << counted(r.forced_cells, "cell", "cells") << "\n";
   if (r.bad_vertices) out << r.bad_vertices << " vertices without a topological disk\n";
   if (r.bare_patches) out << counted(r.bare_patches, "patch", "patches") << " without a facet\n";
-  out << r.domain;
+  out << r.domain << r.given;
   out << r.batches << " batches, " << r.candidates << " candidates, " << r.encroachments << " encroachments, "
       << r.segment_queries << " segment queries, " << r.skipped_queries << " skipped;";
   for (const auto& [stage, seconds] : r.stage_seconds) out << " " << stage << " " << seconds << " s";

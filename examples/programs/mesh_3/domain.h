@@ -51,7 +51,6 @@ public:
 struct Mending
 {
   bool strict = false; ///< refuse them
-  bool repair = false; ///< try CGAL's repair where mending fails
   weft::Mend_options_3 options;
 };
 

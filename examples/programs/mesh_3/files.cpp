@@ -9,11 +9,13 @@
 #include <weft/IO/write_angle_histogram_svg.h>
 #include <weft/IO/write_mesh_3.h>
 #include <weft/IO/write_report_json_3.h>
+#include <weft/spatial/surface/compare_with_given_3.h>
 #include <weft/spatial/surface/mended_complex_3.h>
 #include <weft/spatial/surface/merge_surfaces_3.h>
 
 #include <CGAL/Bbox_3.h>
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -21,10 +23,15 @@ namespace mesh_3_program {
 
 namespace {
 
+using Surfaces = std::vector<weft::Polygon_soup_3<K>>;
+
 class Surface_domain : public Domain
 {
 public:
-  explicit Surface_domain(weft::Piecewise_smooth_complex_3<K> surface) : surface_(std::move(surface)) {}
+  /// \param given the surfaces before they were mended, if they were.
+  explicit Surface_domain(weft::Piecewise_smooth_complex_3<K> surface, Surfaces given = {})
+      : surface_(std::move(surface)), given_(std::move(given))
+  {}
 
   double extent() const override
   {
@@ -36,11 +43,22 @@ public:
   std::vector<std::string> changes() const override { return surface_.changes; }
   std::shared_ptr<const Result> mesh(const Bounds& bounds, const weft::Mesh_options_3& options) const override
   {
-    return mesh_surface(surface_, bounds, options);
+    auto result = mesh_surface(surface_, bounds, options);
+    double approximation = bounds.approximation;
+    bool is_bounded = approximation > 0;
+    for (const auto& [label, length] : bounds.approximation_of) {
+      approximation = std::max(approximation, length);
+      is_bounded = is_bounded && length > 0;
+    }
+    if (given_.empty() || !is_bounded || result->mesh.cells.empty()) return result;
+    Result compared = *result;
+    compared.report.given = weft::compare_with_given_3(given_, surface_, compared.mesh, 2 * approximation);
+    return std::make_shared<const Result>(std::move(compared));
   }
 
 private:
   weft::Piecewise_smooth_complex_3<K> surface_;
+  Surfaces given_;
 };
 
 } // namespace
@@ -48,12 +66,12 @@ private:
 std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames, const weft::Feature_options& features,
                                       const Mending& mending)
 {
-  std::vector<weft::Polygon_soup_3<K>> surfaces;
+  Surfaces surfaces;
   for (const std::string& name : filenames) surfaces.push_back(weft::IO::read_surface<K>(name));
   if (mending.strict) return std::make_unique<Surface_domain>(weft::piecewise_smooth_complex(surfaces, features));
-  using Repair = weft::Polygon_soup_3<K>::Repair;
-  return std::make_unique<Surface_domain>(
-      weft::mended_complex_3(surfaces, features, mending.options, mending.repair ? Repair(repair) : Repair()));
+  auto complex = weft::mended_complex_3(surfaces, features, mending.options);
+  if (complex.changes.empty()) surfaces.clear(); // the mesh is compared with the complex
+  return std::make_unique<Surface_domain>(std::move(complex), std::move(surfaces));
 }
 
 // ---- Results

@@ -16,9 +16,6 @@
 
 namespace mesh_3_program {
 
-/// `weft::repair_surface()`.
-std::vector<std::string> repair(weft::Polygon_soup_3<K>& soup);
-
 /// `weft::mesh_surface_3()`.
 std::shared_ptr<const Result> mesh_surface(const weft::Piecewise_smooth_complex_3<K>& surface, const Bounds& bounds,
                                            const weft::Mesh_options_3& options);

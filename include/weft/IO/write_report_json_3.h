@@ -63,6 +63,18 @@ inline Json to_json(const Domain_comparison_3& c)
           {"subdomains", subdomains}};
 }
 
+inline Json to_json(const Given_comparison_3& c)
+{
+  if (!c.is_known) return nullptr;
+  return {{"ok", c.ok()},
+          {"area", c.area},
+          {"missed_area", c.missed_area},
+          {"missed_share", c.missed_share()},
+          {"area_left_out", c.area_left_out},
+          {"tolerance", c.tolerance},
+          {"largest_distance", c.largest_distance}};
+}
+
 inline Json to_json(const Mesh_report_3& r)
 {
   return {{"ok", r.ok()},
@@ -101,6 +113,7 @@ inline Json to_json(const Mesh_report_3& r)
           {"bad_vertices", r.bad_vertices},
           {"bare_patches", r.bare_patches},
           {"domain", to_json(r.domain)},
+          {"given", to_json(r.given)},
           {"batches", r.batches},
           {"candidates", r.candidates},
           {"encroachments", r.encroachments},

@@ -20,11 +20,15 @@ struct Mend_options_3
   /// is refused.
   double most_left_out = 0.3;
 
+  /// Holes of a part of the surface are capped if caps are at most this part of its area; 0: none.
+  double most_capped = 0.3;
+
   /// \throws Option_error naming the first option out of range.
   void check() const
   {
     if (!(tolerance >= 0 && tolerance <= 0.01)) throw Option_error("tolerance must be between 0 and 0.01");
     if (!(most_left_out >= 0 && most_left_out < 1)) throw Option_error("most_left_out must be from 0 to below 1");
+    if (!(most_capped >= 0 && most_capped < 1)) throw Option_error("most_capped must be from 0 to below 1");
   }
 };
 

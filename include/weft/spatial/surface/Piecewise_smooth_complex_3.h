@@ -59,10 +59,11 @@ struct Piecewise_smooth_complex_3
   std::vector<Feature> features; ///< in the order of their vertices
   /// Of each patch, the subdomains behind it and before it, where there are several; empty: 1 behind, 0 before.
   std::vector<std::pair<int, int>> sides;
+  std::vector<std::array<Point, 3>> left_out; ///< triangles of fins and sheets, which bound nothing
   int number_of_patches = 0;
   int number_of_shells = 0;
   std::vector<std::string> changes; ///< what was changed in the input, for people, one line each: shells turned over,
-                                    ///< repairs; empty if nothing
+                                    ///< what was mended; empty if nothing
 };
 
 } // namespace weft

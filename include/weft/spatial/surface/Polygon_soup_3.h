@@ -6,8 +6,6 @@
 #define WEFT_SPATIAL_SURFACE_POLYGON_SOUP_3_H
 
 #include <cstddef>
-#include <functional>
-#include <string>
 #include <vector>
 
 namespace weft {
@@ -22,9 +20,6 @@ struct Polygon_soup_3
 
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> polygons; ///< corners in order, counterclockwise seen from outside
-
-  /// Changes a soup in place and returns what it changed, for people, one line each; see `repair_surface()`.
-  using Repair = std::function<std::vector<std::string>(Polygon_soup_3&)>;
 };
 
 } // namespace weft

@@ -7,7 +7,8 @@
 #ifndef WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
 #define WEFT_SPATIAL_SURFACE_MENDED_COMPLEX_3_H
 
-#include <weft/spatial/surface/has_odd_parts_3.h>
+#include <weft/internal/Disjoint_parts.h>
+#include <weft/spatial/surface/has_all_parts_3.h>
 #include <weft/spatial/surface/interface_complex_3.h>
 #include <weft/spatial/surface/Mend_options_3.h>
 #include <weft/spatial/surface/mend_surface_3.h>
@@ -17,6 +18,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -72,6 +74,7 @@ Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, cons
     complex = interface_complex_3(std::move(mended.surface), mended.sides, relocated);
   }
   complex.changes.insert(complex.changes.begin(), notes.begin(), notes.end());
+  complex.left_out = std::move(mended.left_out);
   return complex;
 }
 
@@ -87,51 +90,85 @@ inline Feature_options by_angle_only(Feature_options options)
 template <class K>
 struct Resolved_surface_3
 {
-  Triangle_surface_3<K> given; ///< before, without what bounds nothing
+  Surface_parts_3<K> given; ///< before, without what bounds nothing
   Polygon_soup_3<K> soup;
+  Mending_record_3 record; ///< of what was done before
 };
 
-/// Cuts facets where they meet, within each surface and between them; and how many pairs. \throws Domain_error.
+/// Tolerances for facets that nearly lie in one plane, in parts of the diagonal: none, rounding, all that is allowed.
+inline std::vector<double> snappings(const Mend_options_3& mending)
+{
+  constexpr double rounding = 1e-12;
+  if (mending.tolerance > rounding) return {0, rounding, mending.tolerance};
+  return {0, rounding};
+}
+
+/// Cuts facets where they meet, within each surface and between them. \param snapping see `snappings()`.
+/// \throws Domain_error.
 template <class K>
-std::pair<std::vector<Resolved_surface_3<K>>, std::size_t> resolve(const std::vector<Polygon_soup_3<K>>& soups,
-                                                                   const Mend_options_3& mending)
+std::vector<Resolved_surface_3<K>> resolve(const std::vector<Polygon_soup_3<K>>& soups, const Mend_options_3& mending,
+                                           bool with_caps, double snapping = 0)
 {
   std::vector<Resolved_surface_3<K>> result;
   Triangle_surface_3<K> all;
   for (std::size_t s = 0; s < soups.size(); ++s) {
     std::vector<bool> bounds_nothing;
-    const Triangle_surface_3<K> surface = Surface_mender_3<K>(soups[s], mending).cleaned(bounds_nothing);
+    Surface_mender_3<K> mender(soups[s], mending, with_caps);
+    const Triangle_surface_3<K> surface = mender.cleaned(bounds_nothing);
     result.emplace_back();
-    result.back().given.points = surface.points;
+    result.back().record = mender.record();
+    result.back().given.surface.points = surface.points;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      if (!bounds_nothing[t]) result.back().given.triangles.push_back(surface.triangles[t]);
+      if (!bounds_nothing[t]) {
+        result.back().given.surface.triangles.push_back(surface.triangles[t]);
+        result.back().given.part.push_back(all.triangles.size() + t); // so far, the number in `all`
+      }
     for (const auto& [a, b, c] : surface.triangles)
       all.triangles.push_back({a + all.points.size(), b + all.points.size(), c + all.points.size()});
     all.points.insert(all.points.end(), surface.points.begin(), surface.points.end());
     all.origins.resize(all.triangles.size(), s);
   }
-  const std::size_t cut = Intersection_resolver_3<K>(all).resolve();
-  for (auto& surface : result) surface.soup.points = all.points;
+  CGAL::Bbox_3 box;
+  for (const auto& p : all.points) box += p.bbox();
+  Disjoint_parts parts(all.triangles.size()), groups(all.triangles.size());
+  for_each_edge(sorted_sides(all.triangles), [&](auto first, auto last) {
+    for (auto other = first + 1; other != last; ++other) parts.unite(first->triangle, other->triangle);
+  });
+  const std::vector<std::size_t> surface_of = all.origins;
+  Intersection_resolver_3<K> resolver(all, snapping * std::hypot(box.x_span(), box.y_span(), box.z_span()));
+  const std::size_t cut = resolver.resolve();
+  if (cut == 0) throw Domain_error("no facets intersect", {}, {});
+  for (const auto& [a, b] : resolver.pairs())
+    if (surface_of[a] == surface_of[b]) groups.unite(parts.find(a), parts.find(b));
+  for (auto& surface : result) {
+    for (std::size_t& t : surface.given.part) {
+      t = parts.find(t);
+      surface.given.group.push_back(groups.find(t));
+    }
+    surface.soup.points = all.points;
+    surface.record.cut = cut;
+    surface.record.snapped = resolver.snapped();
+  }
   for (std::size_t t = 0; t < all.triangles.size(); ++t) {
     const auto& [a, b, c] = all.triangles[t];
     result[all.origins[t]].soup.polygons.push_back({a, b, c});
   }
-  return {std::move(result), cut};
+  return result;
 }
 
 /// The complex of a surface of which `resolve()` has made another.
 template <class K>
-Piecewise_smooth_complex_3<K> complex_of_resolved(const Resolved_surface_3<K>& resolved, std::size_t cut,
-                                                  const Feature_options& options, const Mend_options_3& mending)
+Piecewise_smooth_complex_3<K> complex_of_resolved(const Resolved_surface_3<K>& resolved, const Feature_options& options,
+                                                  const Mend_options_3& mending)
 {
   std::string what;
   for (const bool everywhere : {false, true}) try {
       auto mended = Surface_mender_3<K>(resolved.soup, mending).mend(everywhere, true);
-      if (!has_odd_parts(resolved.given, mended.surface, mended.sides))
+      if (!has_all_parts(resolved.given, mended.surface, mended.sides))
         throw Domain_error("parts would get lost where facets meet", {}, {});
       mended.record.equal_points = 0; // copies in the pieces
       mended.record.duplicate = 0;
-      mended.record.cut = cut;
+      mended.record.add_earlier(resolved.record);
       return complex_of_mended(std::move(mended), options);
     } catch (const Domain_error& error) {
       if (what.empty()) what = error.what();
@@ -140,40 +177,29 @@ Piecewise_smooth_complex_3<K> complex_of_resolved(const Resolved_surface_3<K>& r
   throw Domain_error(what, {}, {});
 }
 
-template <class K>
-Piecewise_smooth_complex_3<K> resolved_complex(const Polygon_soup_3<K>& soup, const Feature_options& options,
-                                               const Mend_options_3& mending)
-{
-  const auto [resolved, cut] = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending);
-  if (cut == 0) throw Domain_error("no facets intersect", {}, {});
-  return complex_of_resolved(resolved[0], cut, by_angle_only(options), mending);
-}
-
-/// After `piecewise_smooth_complex()` has failed.
+/// After `piecewise_smooth_complex()` has failed: tries one way after the other, those first that change least.
 /// \throws Domain_error with the elements of that failure, which are the caller's.
 template <class K>
-Piecewise_smooth_complex_3<K>
-mend_or_repair(const Polygon_soup_3<K>& soup, const Feature_options& options, const Mend_options_3& mending,
-               const typename Polygon_soup_3<K>::Repair& repair, const Domain_error& failure)
+Piecewise_smooth_complex_3<K> mend_complex(const Polygon_soup_3<K>& soup, const Feature_options& options,
+                                           const Mend_options_3& mending, const Domain_error& failure)
 {
   std::string remains;
-  const auto attempt = [&](const auto& complex) {
-    try {
-      return complex();
-    } catch (const Domain_error& error) {
-      if (remains.empty()) remains = error.what();
+  for (const bool with_caps : {false, true}) {
+    if (with_caps && mending.most_capped == 0) break;
+    for (const bool everywhere : {false, true}) {
+      if (everywhere && mending.tolerance == 0) continue;
+      try {
+        return complex_of_mended(Surface_mender_3<K>(soup, mending, with_caps).mend(everywhere), options);
+      } catch (const Domain_error& error) {
+        if (!everywhere) remains = error.what(); // with caps, if there are any: that comes nearer to a domain
+      }
     }
-    return Piecewise_smooth_complex_3<K>();
-  };
-  for (const bool everywhere : {false, true}) {
-    if (everywhere && mending.tolerance == 0) continue;
-    auto complex =
-        attempt([&] { return complex_of_mended(Surface_mender_3<K>(soup, mending).mend(everywhere), options); });
-    if (!complex.triangles.empty()) return complex;
+    for (const double snapping : snappings(mending)) try {
+        const auto resolved = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending, with_caps, snapping);
+        return complex_of_resolved(resolved[0], by_angle_only(options), mending);
+      } catch (const Domain_error&) {
+      }
   }
-  auto resolved = attempt([&] { return resolved_complex(soup, options, mending); });
-  if (!resolved.triangles.empty()) return resolved;
-  if (repair) return derive_repaired_complex(soup, options, repair, failure);
   if (remains == failure.what()) throw failure;
   throw Domain_error(std::string(failure.what()) + "; mended as far as can be: " + remains, failure.vertices(),
                      failure.elements());
@@ -185,20 +211,24 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
                                                 const Feature_options& options, const Mend_options_3& mending,
                                                 const Domain_error& failure)
 {
-  try {
-    options.check();
-    mending.check();
-    const auto [resolved, cut] = resolve(surfaces, mending);
-    if (cut == 0) throw failure;
-    auto complex = merge_surfaces(resolved, options, [&](const Resolved_surface_3<K>& surface) {
-      return complex_of_resolved(surface, 0, by_angle_only(options), mending);
-    });
-    complex.changes.insert(complex.changes.begin(), counted(cut, "pair of facets that intersect or touch was cut",
-                                                            "pairs of facets that intersect or touch were cut"));
-    return complex;
-  } catch (const Domain_error&) {
-    throw failure;
-  }
+  options.check();
+  mending.check();
+  for (const double snapping : snappings(mending)) try {
+      auto resolved = resolve(surfaces, mending, mending.most_capped > 0, snapping);
+      const std::size_t cut = resolved[0].record.cut, snapped = resolved[0].record.snapped;
+      for (auto& surface : resolved) surface.record.cut = surface.record.snapped = 0;
+      auto complex = merge_surfaces(resolved, options, [&](const Resolved_surface_3<K>& surface) {
+        return complex_of_resolved(surface, by_angle_only(options), mending);
+      });
+      Mending_record_3 common;
+      common.cut = cut;
+      common.snapped = snapped;
+      const auto lines = common.lines();
+      complex.changes.insert(complex.changes.begin(), lines.begin(), lines.end());
+      return complex;
+    } catch (const Domain_error&) {
+    }
+  throw failure;
 }
 
 } // namespace internal
@@ -210,6 +240,7 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
 ///   other; if that doesn't suffice, all points within the tolerance;
 /// - facets that are degenerate or there twice are dropped; edges with one facet are split at points on them;
 /// - facets are turned so that they bound what lies inside, whatever their orientation;
+/// - holes of cup-shaped parts are capped, if caps are at most `most_capped` of the part's area;
 /// - facets with the outside, or the same region, on both sides are left out: fins and sheets;
 /// - facets that intersect or overlap are cut where they meet. Parts that overlap are united, and the curves in which
 ///   they cross are sharp edges from 5 degrees on;
@@ -217,22 +248,20 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
 ///   numbered from 1 by its first facet.
 ///
 /// No point moves farther than the tolerance, and every facet is found on the mended surface or in `changes`.
-/// \param repair tried where mending fails; usually none.
-/// \throws Domain_error if the facets don't bound anything, have holes, or still meet when they have been cut; with the
-///         vertices and facets of the soup that keep it from being a closed surface as it is.
+/// \throws Domain_error if the facets don't bound anything, have holes that are too large, or still meet when they have
+///         been cut; with the vertices and facets of the soup that keep it from being a closed surface as it is.
 /// \throws Option_error if an option is out of range.
 /// Takes O(n log n) for n facets, unless very many of its points lie side by side.
 template <class K>
 Piecewise_smooth_complex_3<K> mended_complex_3(const Polygon_soup_3<K>& soup, const Feature_options& options = {},
-                                               const Mend_options_3& mending = {},
-                                               const typename Polygon_soup_3<K>::Repair& repair = {})
+                                               const Mend_options_3& mending = {})
 {
   options.check();
   mending.check();
   try {
     return piecewise_smooth_complex(soup, options);
   } catch (const Domain_error& failure) {
-    return internal::mend_or_repair(soup, options, mending, repair, failure);
+    return internal::mend_complex(soup, options, mending, failure);
   }
 }
 
@@ -241,12 +270,9 @@ Piecewise_smooth_complex_3<K> mended_complex_3(const Polygon_soup_3<K>& soup, co
 /// accordingly.
 template <class K>
 Piecewise_smooth_complex_3<K> mended_complex_3(const std::vector<Polygon_soup_3<K>>& surfaces,
-                                               const Feature_options& options = {}, const Mend_options_3& mending = {},
-                                               const typename Polygon_soup_3<K>::Repair& repair = {})
+                                               const Feature_options& options = {}, const Mend_options_3& mending = {})
 {
-  const auto complex_of = [&](const Polygon_soup_3<K>& surface) {
-    return mended_complex_3(surface, options, mending, repair);
-  };
+  const auto complex_of = [&](const Polygon_soup_3<K>& surface) { return mended_complex_3(surface, options, mending); };
   if (surfaces.size() < 2) return internal::merge_surfaces(surfaces, options, complex_of);
   try {
     return internal::merge_surfaces(surfaces, options, complex_of);

@@ -199,6 +199,8 @@ auto merge_surfaces(const std::vector<Surface>& surfaces, const Feature_options&
   }
   auto complex = Surface_merger_3<K>(complexes).complex(options);
   complex.changes = std::move(changes);
+  for (const Complex& part : complexes)
+    complex.left_out.insert(complex.left_out.end(), part.left_out.begin(), part.left_out.end());
   return complex;
 }
 
@@ -213,12 +215,10 @@ auto merge_surfaces(const std::vector<Surface>& surfaces, const Feature_options&
 /// O(n log n) for n facets, times the number of surfaces.
 template <class K>
 Piecewise_smooth_complex_3<K> piecewise_smooth_complex(const std::vector<Polygon_soup_3<K>>& surfaces,
-                                                       const Feature_options& options = {},
-                                                       const typename Polygon_soup_3<K>::Repair& repair = {})
+                                                       const Feature_options& options = {})
 {
-  return internal::merge_surfaces(surfaces, options, [&](const Polygon_soup_3<K>& surface) {
-    return piecewise_smooth_complex(surface, options, repair);
-  });
+  return internal::merge_surfaces(
+      surfaces, options, [&](const Polygon_soup_3<K>& surface) { return piecewise_smooth_complex(surface, options); });
 }
 
 } // namespace weft

@@ -3,7 +3,8 @@
 // From a surface to a checked piecewise smooth complex (Tournois 2009, sec. 3.2.1.1): sharp edges are given or found
 // by angle; corners, darts, tips and cusps follow; sharp edges are chained to creases, facets collected to patches and
 // shells. A surface that isn't closed, manifold and consistently oriented, or that meets itself, is refused with the
-// offending elements listed, or handed to a repair first. Start here for domains with a polyhedral boundary.
+// offending elements listed; `mended_complex_3()` takes such surfaces, too. Start here for domains with a polyhedral
+// boundary.
 
 #ifndef WEFT_SPATIAL_SURFACE_PIECEWISE_SMOOTH_COMPLEX_H
 #define WEFT_SPATIAL_SURFACE_PIECEWISE_SMOOTH_COMPLEX_H
@@ -166,90 +167,32 @@ inline void note_lost_features(const Feature_options& given, const Feature_optio
             "given tips or cusps lost");
 }
 
-/// The options for a repaired surface: its points have new places, known by their coordinates. What is gone is dropped
-/// and noted in the log.
-template <class K>
-Feature_options relocated_options(const Feature_options& options, const std::vector<typename K::Point_3>& before,
-                                  const std::vector<typename K::Point_3>& after, std::vector<std::string>& log)
-{
-  std::map<typename K::Point_3, std::size_t, typename K::Less_xyz_3> places;
-  for (std::size_t v = 0; v < after.size(); ++v) places.emplace(after[v], v);
-  const auto place = [&](std::size_t v) {
-    const auto found = v < before.size() ? places.find(before[v]) : places.end();
-    return found == places.end() ? after.size() : found->second;
-  };
-  Feature_options result = options;
-  result.sharp_edges.clear();
-  result.tips_and_cusps.clear();
-  for (const auto& [a, b] : options.sharp_edges)
-    if (place(a) < after.size() && place(b) < after.size() && place(a) != place(b))
-      result.sharp_edges.push_back({place(a), place(b)});
-  for (const std::size_t v : options.tips_and_cusps)
-    if (place(v) < after.size()) result.tips_and_cusps.push_back(place(v));
-  note_lost_features(options, result, log);
-  return result;
-}
-
-/// Second attempt, after a repair. \throws Domain_error with the elements of the first failure, which are the caller's.
-template <class K>
-Piecewise_smooth_complex_3<K> derive_repaired_complex(Polygon_soup_3<K> soup, const Feature_options& options,
-                                                      const typename Polygon_soup_3<K>::Repair& repair,
-                                                      const Domain_error& failure)
-{
-  const auto before = soup.points;
-  std::vector<std::string> log = repair(soup);
-  try {
-    const Feature_options relocated = relocated_options<K>(options, before, soup.points, log);
-    auto complex = derive_complex(triangulate_polygons(soup), relocated);
-    complex.changes.insert(complex.changes.begin(), log.begin(), log.end());
-    return complex;
-  } catch (const Domain_error& remaining) {
-    throw Domain_error(std::string(failure.what()) + "; after repair: " + remaining.what(), failure.vertices(),
-                       failure.elements());
-  }
-}
-
 } // namespace internal
 
 /// The piecewise smooth complex that a polygon soup describes. Polygons with more than three corners are cut into
 /// triangles. A shell that is inside out as a whole is turned over, and so is a cavity that is oriented like what
 /// contains it; `changes` says so. Same input, same numbers.
 /// \tparam K a CGAL kernel with exact predicates, usually Exact_predicates_inexact_constructions_kernel.
-/// \param repair tried on a surface that doesn't qualify, before it is checked once more; usually `repair_surface<K>`.
-///        `changes` lists what it did. Not a flag, because CGAL's repair more than doubles the time to compile.
 /// \throws Domain_error if the surface is not closed, manifold, oriented alike, free of degenerate or repeated facets
 ///         and of self-intersections; with the offending vertices and facets of the soup.
 /// \throws Option_error if an option is out of range.
 /// Takes O(n log n) for n facets.
 template <class K>
 Piecewise_smooth_complex_3<K> piecewise_smooth_complex(const Polygon_soup_3<K>& soup,
-                                                       const Feature_options& options = {},
-                                                       const typename Polygon_soup_3<K>::Repair& repair = {})
+                                                       const Feature_options& options = {})
 {
   options.check();
-  try {
-    return internal::derive_complex(internal::triangulate_polygons(soup), options);
-  } catch (const Domain_error& failure) {
-    if (!repair) throw;
-    return internal::derive_repaired_complex(soup, options, repair, failure);
-  }
+  return internal::derive_complex(internal::triangulate_polygons(soup), options);
 }
 
 /// The same for triangles in arrays.
 template <class Point, class K = typename CGAL::Kernel_traits<Point>::Kernel>
-Piecewise_smooth_complex_3<K>
-piecewise_smooth_complex(const std::vector<Point>& points, const std::vector<std::array<std::size_t, 3>>& triangles,
-                         const Feature_options& options = {}, const typename Polygon_soup_3<K>::Repair& repair = {})
+Piecewise_smooth_complex_3<K> piecewise_smooth_complex(const std::vector<Point>& points,
+                                                       const std::vector<std::array<std::size_t, 3>>& triangles,
+                                                       const Feature_options& options = {})
 {
   options.check();
-  try {
-    return internal::derive_complex(internal::Triangle_surface_3<K>{points, triangles, {}}, options);
-  } catch (const Domain_error& failure) {
-    if (!repair) throw;
-    Polygon_soup_3<K> soup{points, {}};
-    for (const auto& triangle : triangles) soup.polygons.emplace_back(triangle.begin(), triangle.end());
-    return internal::derive_repaired_complex(std::move(soup), options, repair, failure);
-  }
+  return internal::derive_complex(internal::Triangle_surface_3<K>{points, triangles, {}}, options);
 }
 
 /// The polygon soup of a mesh, its vertices and faces numbered in the order in which the mesh lists them.
@@ -281,7 +224,7 @@ auto polygon_soup(const Graph& graph)
 }
 
 /// The piecewise smooth complex that a mesh describes. Indices in options and errors count its vertices and faces in
-/// the order in which it lists them. For a mesh that may need repair, or whose points are elsewhere, pass its
+/// the order in which it lists them. For a mesh that may need mending, or whose points are elsewhere, pass its
 /// `polygon_soup()`.
 /// \tparam Graph models CGAL's FaceListGraph, e.g. Surface_mesh or Polyhedron_3.
 template <class Graph>

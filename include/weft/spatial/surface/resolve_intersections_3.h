@@ -8,6 +8,7 @@
 
 #include <weft/errors.h>
 #include <weft/spatial/surface/check_surface_volume_3.h>
+#include <weft/spatial/surface/Plane_snapper_3.h>
 #include <weft/spatial/surface/surface_topology_3.h>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -40,12 +41,22 @@ class Intersection_resolver_3
 public:
   /// \pre No triangle is degenerate, and no two have the same vertices. Pieces have the origins of their triangles; of
   /// pieces on the same vertices each stays.
-  explicit Intersection_resolver_3(Triangle_surface_3<K>& surface) : surface_(surface) {}
+  /// \param tolerance within it triangles are put into one plane before; 0: they aren't.
+  explicit Intersection_resolver_3(Triangle_surface_3<K>& surface, double tolerance = 0)
+      : surface_(surface), tolerance_(tolerance)
+  {}
+
+  /// How many points were moved onto planes.
+  std::size_t snapped() const { return snapped_; }
+
+  /// Those that meet, as triangles were numbered before.
+  const std::vector<std::array<std::size_t, 2>>& pairs() const { return meeting_; }
 
   /// Returns how many pairs of triangles were cut. \throws Domain_error if there are far too many.
   std::size_t resolve()
   {
     auto pairs = intersecting_triangles(surface_, sorted_sides(surface_.triangles));
+    if (tolerance_ > 0) snap(pairs);
     for (auto& pair : pairs) std::sort(pair.begin(), pair.end());
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -62,10 +73,34 @@ public:
       result.origins.resize(result.triangles.size(), surface_.origin(t));
     }
     surface_ = std::move(result);
-    return pairs.size();
+    return meeting_.size();
   }
 
 private:
+  /// Moves points onto planes; adds pairs that this may have brought together.
+  void snap(std::vector<std::array<std::size_t, 2>>& pairs)
+  {
+    const Plane_snapper_3<K> snapper(surface_, tolerance_);
+    pairs.insert(pairs.end(), snapper.pairs().begin(), snapper.pairs().end());
+    std::map<std::size_t, std::size_t> alias;
+    for (const auto& [v, p] : snapper.places()) {
+      exact_vertices_[v] = p;
+      const typename K::Point_3 rounded = this->rounded(p);
+      snapped_ += rounded != surface_.points[v];
+      surface_.points[v] = rounded;
+      const auto [at, is_new] = numbers_.try_emplace(p, v);
+      if (!is_new) alias[v] = at->second;
+    }
+    for (auto& triangle : surface_.triangles)
+      for (std::size_t& v : triangle)
+        if (const auto found = alias.find(v); found != alias.end()) v = found->second;
+  }
+
+  static typename K::Point_3 rounded(const Exact_point& p)
+  {
+    return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+  }
+
   /// Segments and single points that a triangle has in common with others.
   using Cuts = std::vector<std::pair<Exact_point, Exact_point>>;
 
@@ -85,11 +120,17 @@ private:
 
   void meet(std::size_t s, std::size_t t)
   {
-    const auto common = CGAL::intersection(exact_triangle(s), exact_triangle(t));
+    const Exact_triangle one = exact_triangle(s), other = exact_triangle(t);
+    if (tolerance_ > 0 && (one.is_degenerate() || other.is_degenerate())) return;
+    const auto common = CGAL::intersection(one, other);
     if (!common) return;
+    const std::size_t cuts_before = number_of_cuts_;
+    const auto is_corner = [&](const Exact_triangle& of, const Exact_point& p) {
+      return p == of.vertex(0) || p == of.vertex(1) || p == of.vertex(2);
+    };
     const auto add = [&](const Exact_point& p, const Exact_point& q) {
-      cuts_[s].emplace_back(p, q);
-      cuts_[t].emplace_back(p, q);
+      if (!is_corner(one, p) || !is_corner(one, q)) cuts_[s].emplace_back(p, q), ++number_of_cuts_;
+      if (!is_corner(other, p) || !is_corner(other, q)) cuts_[t].emplace_back(p, q), ++number_of_cuts_;
     };
     if (const auto* p = boost::get<Exact_point>(&*common)) {
       add(*p, *p);
@@ -100,6 +141,7 @@ private:
     } else if (const auto* polygon = boost::get<std::vector<Exact_point>>(&*common)) {
       for (std::size_t i = 0; i < polygon->size(); ++i) add((*polygon)[i], (*polygon)[(i + 1) % polygon->size()]);
     }
+    if (number_of_cuts_ > cuts_before) meeting_.push_back({s, t});
   }
 
   /// The constrained Delaunay triangulation of a triangle with its cuts.
@@ -132,11 +174,14 @@ private:
     for (const std::size_t v : corners)
       if (exact_vertex(v) == p) return v;
     const auto [at, is_new] = numbers_.try_emplace(p, result.points.size());
-    if (is_new) result.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+    if (is_new) result.points.push_back(rounded(p));
     return at->second;
   }
 
   Triangle_surface_3<K>& surface_;
+  double tolerance_;
+  std::size_t snapped_ = 0, number_of_cuts_ = 0;
+  std::vector<std::array<std::size_t, 2>> meeting_;
   std::map<std::size_t, Exact_point> exact_vertices_;
   std::map<std::size_t, Cuts> cuts_;
   std::map<Exact_point, std::size_t, Exact::Less_xyz_3> numbers_;
