@@ -480,6 +480,19 @@ TEST_CASE("scaling and shifting by powers of two changes nothing but the coordin
   CHECK(a == fingerprint(other));
 }
 
+TEST_CASE("in spikes down to 5 degrees angles are as good as elsewhere, at any size")
+{
+  const Pslg pslg = star();
+  for (const double size : {0.04, 0.03, 0.0208, 0.02, 0.015, 0.012, 0.01}) {
+    INFO("size " << size);
+    Cdt cdt = triangulate(pslg);
+    const Mesh_report_2 report = mesh_and_check(cdt, pslg, Uniform(size));
+    CHECK(report.ok());
+    CHECK(report.smallest_angle > 4.999); // the input's own
+    CHECK(report.largest_angle < 105);
+  }
+}
+
 TEST_CASE("a vertex budget is kept, and the mesh is valid when it is used up")
 {
   const Pslg pslg = nested_holes();

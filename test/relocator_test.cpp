@@ -6,6 +6,7 @@
 #include "fixtures/planar_fixtures.h"
 
 #include <weft/planar/triangulation/Relocator_2.h>
+#include <weft/planar/working/Vertex_remover_2.h>
 
 #include <iterator>
 
@@ -321,4 +322,54 @@ TEST_CASE("relocation is the same wherever the triangulation lies in memory")
   const Fingerprint first = run();
   const Memory_noise noise(1);
   CHECK(first == run());
+}
+
+TEST_CASE("a vertex that was inserted in the middle of an edge can be removed again")
+{
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    INFO("seed " << seed);
+    Field_of_points field(seed, 60);
+    Cdt& cdt = field.cdt;
+    weft::internal::Relocator_2<Cdt> relocator(cdt);
+    weft::internal::Vertex_remover_2<Cdt> remover(cdt, relocator);
+    const auto all_edges = [&cdt] {
+      Edges result;
+      for (const auto& e : cdt.finite_edges()) result.insert(ends(cdt, e));
+      return result;
+    };
+    const Edges before = all_edges();
+    std::size_t on_line = 0;
+    for (const auto& [a, b] : before) {
+      const Point p = CGAL::midpoint(a, b);
+      int li;
+      Cdt::Locate_type type;
+      const auto f = cdt.locate(p, type, li);
+      if (type == Cdt::EDGE && cdt.is_constrained({f, li})) continue;
+      on_line += type == Cdt::EDGE;
+      const bool is_inside = f->is_in_domain();
+      const auto v = cdt.insert(p);
+      auto face = cdt.incident_faces(v);
+      const auto done = face;
+      do face->set_in_domain(is_inside);
+      while (++face != done);
+      REQUIRE(remover.remove(v));
+    }
+    CHECK(on_line > 50);
+    CHECK(cdt.is_valid());
+    CHECK(all_edges() == before);
+  }
+  // Between both pairs of its neighbors.
+  Cdt cdt;
+  const Vertices corners{cdt.insert({0, 0}), cdt.insert({4, 0}), cdt.insert({4, 4}), cdt.insert({0, 4})};
+  for (std::size_t i = 0; i < 4; ++i) cdt.insert_constraint(corners[i], corners[(i + 1) % 4]);
+  const auto center = cdt.insert({2, 2});
+  weft::mark_domain_by_parity(cdt);
+  weft::internal::Relocator_2<Cdt> relocator(cdt);
+  CHECK(weft::internal::Vertex_remover_2<Cdt>(cdt, relocator).remove(center));
+  CHECK(cdt.is_valid());
+  std::size_t inside = 0, constrained = 0;
+  for (const auto f : cdt.finite_face_handles()) inside += f->is_in_domain();
+  for (const auto& e : cdt.finite_edges()) constrained += cdt.is_constrained(e);
+  CHECK(inside == 2);
+  CHECK(constrained == 4);
 }

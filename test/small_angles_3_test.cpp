@@ -225,6 +225,31 @@ TEST_CASE("cells between twins aren't flat, and others are good")
   }
 }
 
+TEST_CASE("a closed crease is whole though its first point is as far from one vertex as from another")
+{
+  // Two pyramids base to base, over an octagon with coordinates that make distances exact.
+  Surface s;
+  s.points = {{4, 0, 0}, {3, 3, 0}, {0, 4, 0}, {-3, 3, 0}, {-4, 0, 0}, {-3, -3, 0}, {0, -4, 0}, {3, -3, 0}};
+  for (const double z : {2., -2.}) s.points.emplace_back(0, 0, z);
+  for (std::size_t i = 0; i < 8; ++i) {
+    s.triangles.push_back({i, (i + 1) % 8, 8});
+    s.triangles.push_back({(i + 1) % 8, i, 9});
+  }
+  const Oracle oracle = oracle_of(s);
+  REQUIRE(oracle.number_of_creases() == 1);
+  REQUIRE(oracle.crease_is_closed(0));
+  const auto rim = oracle.crease_points(0);
+  for (const std::size_t first : {0u, 1u}) { // with a vertex at the first point, and without
+    weft::Restricted_delaunay_3<Oracle> mesh(oracle, 1);
+    std::vector<Point> points;
+    for (std::size_t i = first; i < 8; i += 2) points.push_back(rim[i]);
+    mesh.insert(points, std::vector<weft::Vertex_location_3>(4, {1, 0}));
+    const auto& edges = mesh.creases().edges();
+    CHECK(edges.size() == 4);
+    for (const auto& e : edges) CHECK(!e.is_tangled);
+  }
+}
+
 TEST_CASE("shapes that nothing forces are still found bad beside small angles")
 {
   const Oracle oracle = oracle_of(surfaces::wedge(10));

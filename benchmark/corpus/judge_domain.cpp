@@ -3,8 +3,9 @@
 // Judges whether a tetrahedral mesh fills the solid that a surface bounds, without anything of weft but its reader of
 // surfaces, and prints a JSON object.
 //
-//   judge_domain SURFACE MESH.mesh PERCENT [VOLUME PIECES SHELLS EULER]
+//   judge_domain [--label N] SURFACE MESH.mesh PERCENT [VOLUME PIECES SHELLS EULER]
 //
+// --label N: of the mesh, the cells of subdomain N only.
 // PERCENT: the approximation bound in parts of the diagonal of the surface's bounding box. What is known of the solid
 // follows, or it is taken from the surface once equal points are one; pieces aren't known then.
 
@@ -17,11 +18,13 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,8 +82,9 @@ judge::Triangles read_surface(const std::string& filename)
   return s;
 }
 
-/// Vertices and tetrahedra of a Medit file.
-std::pair<std::vector<judge::Vector>, std::vector<judge::Cell>> read_mesh(const std::string& filename)
+/// Vertices and tetrahedra of a Medit file, those with a label only, or all.
+std::pair<std::vector<judge::Vector>, std::vector<judge::Cell>> read_mesh(const std::string& filename,
+                                                                          std::optional<int> label)
 {
   std::ifstream in(filename);
   std::vector<judge::Vector> points;
@@ -102,11 +106,40 @@ std::pair<std::vector<judge::Vector>, std::vector<judge::Cell>> read_mesh(const 
         in >> c[0] >> c[1] >> c[2] >> c[3] >> tag;
         for (std::size_t& v : c)
           if (v-- == 0 || v >= points.size()) throw weft::File_error(filename, 0, "names a vertex that it lacks");
-        cells.push_back(c);
+        if (!label || tag == *label) cells.push_back(c);
       }
     }
   if (cells.empty()) throw weft::File_error(filename, 0, "has no tetrahedra");
   return {std::move(points), std::move(cells)};
+}
+
+/// The smallest and the largest dihedral angle in degrees, and the smallest of the cells that have a vertex inside.
+std::array<double, 3> extreme_dihedrals(const std::vector<judge::Vector>& points, const std::vector<judge::Cell>& cells)
+{
+  long pieces = 0;
+  std::vector<char> is_outside(points.size());
+  for (const judge::Triangle& t : judge::boundary(points, cells, pieces).triangles)
+    for (const std::size_t v : t) is_outside[v] = true;
+  std::array<double, 3> result{180, 0, 180};
+  for (const judge::Cell& c : cells) {
+    double smallest = 180;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) { // about the edge of the other two
+        const std::size_t k = i != 0 ? 0 : j != 1 ? 1 : 2;
+        const std::size_t l = 6 - i - j - k;
+        const judge::Vector axis = judge::minus(points[c[l]], points[c[k]]);
+        const judge::Vector a = judge::cross(axis, judge::minus(points[c[i]], points[c[k]])),
+                            b = judge::cross(axis, judge::minus(points[c[j]], points[c[k]]));
+        const judge::Vector both = judge::cross(a, b);
+        const double angle = std::atan2(std::sqrt(judge::dot(both, both)), judge::dot(a, b)) * 180 / std::acos(-1.);
+        smallest = std::min(smallest, angle);
+        result[1] = std::max(result[1], angle);
+      }
+    result[0] = std::min(result[0], smallest);
+    if (std::any_of(c.begin(), c.end(), [&](std::size_t v) { return !is_outside[v]; }))
+      result[2] = std::min(result[2], smallest);
+  }
+  return result;
 }
 
 double diagonal(const judge::Triangles& s)
@@ -123,11 +156,16 @@ double diagonal(const judge::Triangles& s)
 void run(benchmark::Argument_reader arguments)
 {
   std::vector<std::string> operands;
-  while (arguments.next()) operands.push_back(arguments.argument());
+  std::optional<int> label;
+  while (arguments.next())
+    if (arguments.is("--label"))
+      label = static_cast<int>(arguments.number());
+    else
+      operands.push_back(arguments.argument());
   if (operands.size() != 3 && operands.size() != 7)
-    throw weft::Option_error("usage: judge_domain SURFACE MESH.mesh PERCENT [VOLUME PIECES SHELLS EULER]");
+    throw weft::Option_error("usage: judge_domain [--label N] SURFACE MESH.mesh PERCENT [VOLUME PIECES SHELLS EULER]");
   const judge::Triangles surface = read_surface(operands[0]);
-  const auto [points, cells] = read_mesh(operands[1]);
+  const auto [points, cells] = read_mesh(operands[1], label);
   const judge::Topology given = judge::topology(surface);
   judge::Expected expected{std::abs(judge::volume(surface)), 0, given.shells, given.euler};
   if (operands.size() == 7)
@@ -145,6 +183,8 @@ void run(benchmark::Argument_reader arguments)
   result.add("surface_to_mesh", v.surface_to_mesh).add("mesh_to_surface", v.mesh_to_surface);
   result.add("approximation", approximation).add("vertices", static_cast<double>(points.size()));
   result.add("cells", static_cast<double>(cells.size()));
+  const auto [smallest, largest, inner] = extreme_dihedrals(points, cells);
+  result.add("smallest_dihedral", smallest).add("largest_dihedral", largest).add("smallest_inner_dihedral", inner);
   result.add("why", judge::describe(v));
   std::cout << result.str() << "\n";
 }

@@ -27,11 +27,11 @@ public:
   Vertex_remover_2(Cdt& cdt, Relocator_2<Cdt>& relocator) : cdt_(cdt), relocator_(relocator) {}
 
   /// Removes a vertex without constraints that isn't on the convex hull.
-  /// \returns whether that was possible; it always is, short of collinear neighbors.
+  /// \returns whether that was possible; it always is, short of rounding.
   bool remove(Vertex_handle v)
   {
     std::vector<Face_handle> hole;
-    if (!flip_down(v, 3, hole)) return restore_star(v);
+    if (!flip_down(v, 3, hole) && !flip_flat(v, hole)) return restore_star(v);
     hole.push_back(v->face());
     merge_star(v, hole.back());
     relocator_.restore_delaunay_of(hole);
@@ -107,6 +107,35 @@ private:
       if (!flipped) return false;
     }
     return true;
+  }
+
+  /// Flips an edge of a vertex that lies between two of its four neighbors on a straight line, as one inserted in the
+  /// middle of an edge does: that leaves it in a flat triangle with the two, and with three neighbors. Appends the ear.
+  bool flip_flat(Vertex_handle v, std::vector<Face_handle>& ears)
+  {
+    const auto orientation = cdt_.geom_traits().orientation_2_object();
+    if (cdt_.degree(v) != 4) return false;
+    auto face = cdt_.incident_faces(v);
+    const auto done = face;
+    do {
+      const int i = face->index(v), left = Cdt::ccw(i);
+      const Face_handle f = face, next = f->neighbor(left);
+      const Vertex_handle p = f->vertex(Cdt::ccw(i)), ear = f->vertex(Cdt::cw(i)),
+                          q = next->vertex(Cdt::cw(next->index(v)));
+      if (f->is_constrained(left) || orientation(p->point(), q->point(), v->point()) != CGAL::COLLINEAR ||
+          orientation(p->point(), ear->point(), q->point()) != CGAL::LEFT_TURN)
+        continue;
+      cdt_.tds().flip(f, left);
+      const Face_handle cut = f->has_vertex(v) ? next : f;
+      for (int k = 0; k < 3; ++k)
+        if (cut->vertex(k) == ear)
+          cut->set_constraint(k, false);
+        else
+          copy_constraint(cut, k);
+      ears.push_back(cut);
+      return true;
+    } while (++face != done);
+    return false;
   }
 
   /// Makes one face of the three around v. The face's constraints are those of its neighbors.

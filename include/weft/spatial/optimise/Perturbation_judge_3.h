@@ -25,11 +25,18 @@
 
 namespace weft::internal {
 
+/// The cosine of the small dihedral angle that a large one stands for: 152 degrees stand for 24, 140 for 32, 125 for
+/// 42.
+inline double stand_in_for_largest(double cosine)
+{
+  return 0.428 - 0.55 * cosine;
+}
+
 /// How much of a sliver a cell is: the cosine of its smallest dihedral angle, or what its largest one stands for if
-/// that is more. 152 degrees stand for 24, 140 for 32, 125 for 42.
+/// that is more.
 inline double sliver_measure(const Dihedral_cosines_3& cosines)
 {
-  return (std::max)(cosines.smallest, 0.428 - 0.55 * cosines.largest);
+  return (std::max)(cosines.smallest, stand_in_for_largest(cosines.largest));
 }
 
 /// \tparam Restricted a Restricted_delaunay_3.
@@ -180,13 +187,15 @@ private:
   bool may_be_forced(const Dihedral_cosines_3& x) const { return is_about_angles_ && x.smallest > wanted_cosine_; }
 
   /// The dihedral angles of a cell that fills the wedge at an edge of the input in proportion to those wanted there:
-  /// the perturber leaves a cell alone that has a good part of the angle.
+  /// the perturber leaves a cell alone that has a good part of the angle. A large angle counts as a small one does,
+  /// which it doesn't come with there.
   static Dihedral_cosines_3 relative(const Dihedral_cosines_3& x, double forcing_angle)
   {
     if (forcing_angle > largest_forcing_angle) return x;
     const double attainable = (std::max)((std::min)(part_of_angle * forcing_angle, wanted), least_part * forcing_angle);
     const double degrees = degrees_of_cosine(x.smallest);
-    return {degrees >= attainable ? -1. : cosine_of_degrees(degrees * wanted / attainable), x.largest};
+    const double acute = degrees >= attainable ? -1. : cosine_of_degrees(degrees * wanted / attainable);
+    return {(std::max)(acute, stand_in_for_largest(x.largest)), x.largest};
   }
 
   std::array<Vertex_location_3, 4> locations(const typename Restricted::Facet& facet) const

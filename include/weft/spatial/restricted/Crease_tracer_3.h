@@ -129,6 +129,7 @@ private:
     std::vector<Visit> visits;
 
     double end() const { return static_cast<double>(points.size() - 1); }
+    bool is_cycle() const { return points.front() == points.back(); }
   };
 
   static constexpr int none = -1;
@@ -251,23 +252,35 @@ private:
     edges_of_crease_.assign(creases_.size(), 0);
     for (std::size_t c = 0; c < creases_.size(); ++c) {
       const auto& visits = creases_[c].visits;
-      const std::size_t first = edges_.size();
-      for (std::size_t k = 1; k < visits.size(); ++k)
+      const std::size_t first = edges_.size(), begin = first_visit(creases_[c]);
+      for (std::size_t k = begin + 1; k < visits.size(); ++k)
         add_crossing(visits[k - 1].vertex, visits[k].vertex, static_cast<int>(c), visits[k].begin);
-      mark_tangled(visits, first);
+      // A cycle that begins on the border of two Voronoi cells ends in the one and began in the other.
+      if (!visits.empty() && creases_[c].is_cycle() && visits.back().vertex != visits[begin].vertex)
+        add_crossing(visits.back().vertex, visits[begin].vertex, static_cast<int>(c), creases_[c].end());
+      mark_tangled(visits, begin, first);
     }
   }
 
-  /// A crease passes through the cell of each of its vertices once (topological 1-disk), but for where it closes.
-  void mark_tangled(const std::vector<Visit>& visits, std::size_t first_edge)
+  /// Where a cycle begins on a border, the first stretch may be but a point.
+  static std::size_t first_visit(const Crease& crease)
   {
-    const bool closes = visits.size() > 1 && visits.front().vertex == visits.back().vertex;
+    const auto& visits = crease.visits;
+    std::size_t k = 0;
+    while (crease.is_cycle() && k + 1 < visits.size() && visits[k + 1].begin == visits[k].begin) ++k;
+    return k;
+  }
+
+  /// A crease passes through the cell of each of its vertices once (topological 1-disk), but for where it closes.
+  void mark_tangled(const std::vector<Visit>& visits, std::size_t begin, std::size_t first_edge)
+  {
+    const bool closes = visits.size() > begin + 1 && visits[begin].vertex == visits.back().vertex;
     const auto count = [this](Vertex_handle v) -> int& {
       const auto k = static_cast<std::size_t>(v->id() + 1); // corners of the box have -1
       if (k >= counts_.size()) counts_.resize(2 * k, 0);
       return counts_[k];
     };
-    for (std::size_t k = closes ? 1 : 0; k < visits.size(); ++k) ++count(visits[k].vertex);
+    for (std::size_t k = closes ? begin + 1 : begin; k < visits.size(); ++k) ++count(visits[k].vertex);
     for (std::size_t e = first_edge; e < edges_.size(); ++e)
       edges_[e].is_tangled |= count(edges_[e].source) > 1 || count(edges_[e].target) > 1;
     for (const Visit& visit : visits) count(visit.vertex) = 0;

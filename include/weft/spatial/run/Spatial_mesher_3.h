@@ -14,6 +14,7 @@
 #include <weft/spatial/mesh/check_manifold_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/coarsen_3.h>
+#include <weft/spatial/optimise/move_twins_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
 #include <weft/spatial/optimise/turn_diagonals_3.h>
@@ -30,6 +31,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -236,6 +238,8 @@ private:
   void perturb()
   {
     turn_diagonals(mesh_, guard(), options_.seed + 3);
+    const std::function<bool()> goes_on = [this] { return visit(0); };
+    move_twins(mesh_, guard(), options_.seed + 4, goes_on);
     Perturb_options_3 options;
     options.target = options_.min_dihedral_angle;
     // Where something is bad, the input has angles so small that the worst cells stay, whatever is done about them.
@@ -250,6 +254,7 @@ private:
     options.time_limit = run_.time_left();
     options.go_on = [this](double) { return visit(0); };
     const Perturb_report_3 result = perturb_slivers_3(mesh_, guard(), options);
+    move_twins(mesh_, guard(), options_.seed + 5, goes_on);
     report_.smoothed_smallest_dihedral = result.before;
     report_.perturbed = result.by_radius + result.by_volume + result.by_chance;
     report_.perturb_insertions = result.insertions;
