@@ -16,6 +16,7 @@
 #include <weft/spatial/restricted/Facet_records_3.h>
 #include <weft/spatial/restricted/Mesh_triangulation_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
+#include <weft/spatial/restricted/Star_filling_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -296,7 +297,10 @@ private:
     vertices_[static_cast<std::size_t>(v->id())] = Vertex_handle();
     if (!creases_are_stale_) tracer_.forget(v);
     std::vector<Cell_handle> filling;
-    tr_->remove_and_give_new_cells(v, std::back_inserter(filling));
+    if (filling_.find(*tr_, v, star))
+      filling_.replace(*tr_, v, star, filling);
+    else
+      tr_->remove_and_give_new_cells(v, std::back_inserter(filling));
     return filling;
   }
 
@@ -330,6 +334,7 @@ private:
   std::unique_ptr<Triangulation> tr_; ///< at a fixed place, so that handles survive moves of this object
   internal::Crease_tracer_3<Triangulation> tracer_;
   mutable internal::Facet_records_3<Triangulation> facets_; ///< as for what it says of vertices
+  internal::Star_filling_3<Triangulation> filling_; ///< of the vertex that is taken away
   std::vector<Vertex_handle> vertices_;
   std::vector<std::size_t> spatial_order_; ///< of the vertices at some time
   std::vector<char> fixed_;                ///< by vertex, those at the end may be missing: see `is_fixed()`
