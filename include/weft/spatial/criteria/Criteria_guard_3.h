@@ -90,6 +90,18 @@ public:
     return true;
   }
 
+  /// Before a change is made: whether cells and facets, which needn't be in the mesh, would be good, but for what hangs
+  /// on those around them.
+  bool may_accept(const std::vector<Cell_handle>& cells, const std::vector<Facet>& facets) const
+  {
+    for (const Cell_handle c : cells)
+      if (c->subdomain() != 0 && offends(key(c), grade(c))) return false;
+    for (const Facet& f : facets)
+      if (offends(key(f), grade_by_criteria(f))) return false;
+    return std::none_of(facets.begin(), facets.end(),
+                        [this](const Facet& f) { return offends(key(f), grade_by_own_distance(f)); });
+  }
+
   /// The first fault found in what the last change has made. Unlike `new_offenders()` it ends at the first, looks
   /// crease edges up only where the change was, and sees patches and creases that have lost everything.
   Refusal_3 refusal() const
@@ -218,7 +230,6 @@ private:
     const auto look = [&](const Element& e, const Grade& grade) {
       if (grade.is_bad()) visit(e, grade);
     };
-    if (part.facets.size() > mesh_.facets().size() / 10) mesh_.list_facets_at_vertices();
     for (const int record : part.facets)
       if (facet(record).cell != Cell_handle()) look(key(facet(record)), grade(facet(record)));
     for (const Cell_handle c : part.cells)
@@ -265,9 +276,17 @@ private:
 
   Grade grade_by_distance(const Facet& f) const
   {
-    const Squared_deviation_3 d = deviation_.beyond(bound_at(f.steiner), f);
+    Grade grade = grade_by_own_distance(f);
+    grade.height = deviation_.height_beyond(bound_at(f.steiner).height, f);
+    return grade;
+  }
+
+  /// What doesn't hang on the facets around it.
+  Grade grade_by_own_distance(const Facet& f) const
+  {
     const double cosine = cosine_to_surface(mesh_, f);
-    return {0, d.depth, d.height, 0, cosine < least_cosine_to_surface ? 1 - cosine : 0};
+    return {0, deviation_.depth_beyond(bound_at(f.steiner).depth, f), 0, 0,
+            cosine < least_cosine_to_surface ? 1 - cosine : 0};
   }
 
   Grade grade(const Crease_edge& e) const
