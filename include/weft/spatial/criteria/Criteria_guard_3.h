@@ -11,6 +11,7 @@
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/Deviation_3.h>
+#include <weft/spatial/criteria/Facet_memory_3.h>
 #include <weft/spatial/criteria/facet_turn_3.h>
 #include <weft/spatial/mesh/circumcenter_3.h>
 #include <weft/spatial/restricted/topological_disk_3.h>
@@ -281,12 +282,21 @@ private:
     return grade;
   }
 
-  /// What doesn't hang on the facets around it.
+  /// What doesn't hang on the facets around it. How deep a facet is, and how its corners look, is its own affair.
   Grade grade_by_own_distance(const Facet& f) const
   {
-    const double cosine = cosine_to_surface(mesh_, f);
-    return {0, deviation_.depth_beyond(bound_at(f.steiner).depth, f), 0, 0,
-            cosine < least_cosine_to_surface ? 1 - cosine : 0};
+    const bool may_be_known = !allowed_ && mesh_.is_boundary(f);
+    const Facet_memory_3::Key key = may_be_known ? Facet_memory_3::key(f) : Facet_memory_3::Key();
+    const bool is_known = may_be_known && known_to_be_good_.has(key);
+    double cosine =
+        least_cosine_to_surface_of(mesh_, f, is_known ? Facet_points_3::steiner_point : Facet_points_3::all);
+    const double depth = is_known ? 0 : deviation_.depth_beyond(bound_at(f.steiner).depth, f);
+    if (cosine < least_cosine_to_surface) {
+      if (is_beside_sharp_edge(mesh_.oracle(), f)) cosine = 1;
+    } else if (may_be_known && !is_known && depth == 0) {
+      known_to_be_good_.add(key);
+    }
+    return {0, depth, 0, 0, cosine < least_cosine_to_surface ? 1 - cosine : 0};
   }
 
   Grade grade(const Crease_edge& e) const
@@ -352,6 +362,7 @@ private:
   std::vector<int> patches_;         ///< that have facets
   std::vector<std::size_t> creases_; ///< that have edges
   Deviation_3<Restricted> deviation_;
+  mutable Facet_memory_3 known_to_be_good_; ///< by depth and at its corners
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
   Squared_deviation_3 farthest_;   ///< that facets may be
   double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
