@@ -7,6 +7,7 @@
 
 #include <weft/internal/boxes/coordinates_3.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace weft::internal {
@@ -54,6 +55,46 @@ Point nearest_point_on_triangle(const Point& p, const Point& a, const Point& b, 
   try_edge(w, a, b), try_edge(v, a, c), try_edge(u, b, c);
   return best;
 }
+
+/// A triangle that many points are measured against.
+class Measured_triangle_3
+{
+public:
+  Measured_triangle_3(const Xyz_3& a, const Xyz_3& b, const Xyz_3& c) : a_(a), ab_(minus(b, a)), ac_(minus(c, a))
+  {
+    normal_ = cross_product(ab_, ac_);
+    square_ = dot_product(normal_, normal_);
+  }
+
+  /// Squared distance to the nearest point of the triangle, by weights as in `nearest_point_on_triangle()`.
+  double squared_distance(const Xyz_3& p) const
+  {
+    const Xyz_3 ap = minus(p, a_), turned = cross_product(ap, normal_);
+    const double w = dot_product(ab_, turned), v = -dot_product(ac_, turned), u = square_ - v - w;
+    if (square_ > 0 && u >= 0 && v >= 0 && w >= 0) {
+      const double height = dot_product(ap, normal_);
+      return height * height / square_;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    if (!(square_ > 0) || w < 0) least = (std::min)(least, squared_distance_to_edge(ap, ab_));
+    if (!(square_ > 0) || v < 0) least = (std::min)(least, squared_distance_to_edge(ap, ac_));
+    if (!(square_ > 0) || u < 0) least = (std::min)(least, squared_distance_to_edge(minus(ap, ab_), minus(ac_, ab_)));
+    return least;
+  }
+
+private:
+  static double squared_distance_to_edge(const Xyz_3& from, const Xyz_3& edge)
+  {
+    const double length = dot_product(edge, edge), along = dot_product(from, edge);
+    if (!(along > 0)) return dot_product(from, from);
+    const double t = along >= length ? 1 : along / length;
+    const Xyz_3 rest{{from[0] - t * edge[0], from[1] - t * edge[1], from[2] - t * edge[2]}};
+    return dot_product(rest, rest);
+  }
+
+  Xyz_3 a_, ab_, ac_, normal_;
+  double square_; ///< of the length of the normal
+};
 
 } // namespace weft::internal
 

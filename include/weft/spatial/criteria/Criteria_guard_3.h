@@ -11,6 +11,7 @@
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/Deviation_3.h>
+#include <weft/spatial/criteria/Facet_memory_3.h>
 #include <weft/spatial/criteria/facet_turn_3.h>
 #include <weft/spatial/mesh/circumcenter_3.h>
 #include <weft/spatial/restricted/topological_disk_3.h>
@@ -88,6 +89,18 @@ public:
       if (offends(key(c), unlabelled_grade(c)) && mesh_.oracle().subdomain(c->circumcenter()) != 0) return false;
     }
     return true;
+  }
+
+  /// Before a change is made: whether cells and facets, which needn't be in the mesh, would be good, but for what hangs
+  /// on those around them.
+  bool may_accept(const std::vector<Cell_handle>& cells, const std::vector<Facet>& facets) const
+  {
+    for (const Cell_handle c : cells)
+      if (c->subdomain() != 0 && offends(key(c), grade(c))) return false;
+    for (const Facet& f : facets)
+      if (offends(key(f), grade_by_criteria(f))) return false;
+    return std::none_of(facets.begin(), facets.end(),
+                        [this](const Facet& f) { return offends(key(f), grade_by_own_distance(f)); });
   }
 
   /// The first fault found in what the last change has made. Unlike `new_offenders()` it ends at the first, looks
@@ -218,7 +231,6 @@ private:
     const auto look = [&](const Element& e, const Grade& grade) {
       if (grade.is_bad()) visit(e, grade);
     };
-    if (part.facets.size() > mesh_.facets().size() / 10) mesh_.list_facets_at_vertices();
     for (const int record : part.facets)
       if (facet(record).cell != Cell_handle()) look(key(facet(record)), grade(facet(record)));
     for (const Cell_handle c : part.cells)
@@ -265,9 +277,26 @@ private:
 
   Grade grade_by_distance(const Facet& f) const
   {
-    const Squared_deviation_3 d = deviation_.beyond(bound_at(f.steiner), f);
-    const double cosine = cosine_to_surface(mesh_, f);
-    return {0, d.depth, d.height, 0, cosine < least_cosine_to_surface ? 1 - cosine : 0};
+    Grade grade = grade_by_own_distance(f);
+    grade.height = deviation_.height_beyond(bound_at(f.steiner).height, f);
+    return grade;
+  }
+
+  /// What doesn't hang on the facets around it. How deep a facet is, and how its corners look, is its own affair.
+  Grade grade_by_own_distance(const Facet& f) const
+  {
+    const bool may_be_known = !allowed_ && mesh_.is_boundary(f);
+    const Facet_memory_3::Key key = may_be_known ? Facet_memory_3::key(f) : Facet_memory_3::Key();
+    const bool is_known = may_be_known && known_to_be_good_.has(key);
+    double cosine =
+        least_cosine_to_surface_of(mesh_, f, is_known ? Facet_points_3::steiner_point : Facet_points_3::all);
+    const double depth = is_known ? 0 : deviation_.depth_beyond(bound_at(f.steiner).depth, f);
+    if (cosine < least_cosine_to_surface) {
+      if (is_beside_sharp_edge(mesh_.oracle(), f)) cosine = 1;
+    } else if (may_be_known && !is_known && depth == 0) {
+      known_to_be_good_.add(key);
+    }
+    return {0, depth, 0, 0, cosine < least_cosine_to_surface ? 1 - cosine : 0};
   }
 
   Grade grade(const Crease_edge& e) const
@@ -333,6 +362,7 @@ private:
   std::vector<int> patches_;         ///< that have facets
   std::vector<std::size_t> creases_; ///< that have edges
   Deviation_3<Restricted> deviation_;
+  mutable Facet_memory_3 known_to_be_good_; ///< by depth and at its corners
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
   Squared_deviation_3 farthest_;   ///< that facets may be
   double farthest_of_crease_ = 0;  ///< that crease edges may be, squared

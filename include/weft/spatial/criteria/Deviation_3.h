@@ -12,11 +12,11 @@
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
-#include <boost/container_hash/hash.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -57,9 +57,14 @@ public:
   /// The same but 0 where it isn't beyond a bound, which is much cheaper to tell.
   Squared_deviation_3 beyond(const Squared_deviation_3& bound, const Facet& f) const
   {
-    const bool is_deep = !for_each_sample(f, [&](const Point& p) { return mesh_->oracle().is_within(p, bound.depth); });
-    return {is_deep ? depth(f) : 0, height(f, bound.height)};
+    return {depth_beyond(bound.depth, f), height_beyond(bound.height, f)};
   }
+  double depth_beyond(double bound, const Facet& f) const
+  {
+    const bool is_deep = !for_each_sample(f, [&](const Point& p) { return mesh_->oracle().is_within(p, bound); });
+    return is_deep ? depth(f) : 0;
+  }
+  double height_beyond(double bound, const Facet& f) const { return height(f, bound); }
 
   /// Squared distance of the farthest corner of a crease from the edge that stands for it there: those corners to both
   /// sides of its Steiner point whose projections lie between the ends of the edge.
@@ -113,15 +118,17 @@ private:
   double height(const Facet& f, double bound) const
   {
     double highest = bound;
-    thread_local std::vector<const Facet*> around;
+    const Measured_triangle_3 triangle = measured(f);
+    thread_local std::vector<Measured_triangle_3> around;
     around.clear();
     const auto look = [&](const Point& p) {
       Near_point& known = what_is_known(p);
       if (known.bound <= highest) return;
-      if (squared_distance(p, f) > highest) {
+      if (const double own = triangle.squared_distance(xyz(p)); own > highest) {
         if (around.empty())
           for (int i = 1; i <= 3; ++i) list_star(f.cell->vertex((f.index + i) & 3), around);
-        const double distance = is_within(p, highest, around) ? 0 : squared_distance_from_around(p, highest, f, known);
+        const double distance =
+            is_within(p, highest, around) ? 0 : squared_distance_from_around(p, highest, own, f.cell, known);
         if (distance > highest) {
           highest = distance;
           return;
@@ -133,7 +140,7 @@ private:
     mesh_->oracle().visit_salient_points(f.steiner, squared_reach, f.patch, [&](const Point& p, bool) { look(p); });
     mesh_->oracle().visit_ridges(f.steiner, squared_reach, f.patch, [&](const Point& p, const Point& q, bool) {
       // The distance from a facet is convex along a segment.
-      if (squared_distance(p, f) <= highest && squared_distance(q, f) <= highest) return;
+      if (triangle.squared_distance(xyz(p)) <= highest && triangle.squared_distance(xyz(q)) <= highest) return;
       for (const double t : along_ridges) {
         const Point r = p + t * (q - p);
         if (CGAL::squared_distance(r, f.steiner) < squared_reach) look(r);
@@ -162,31 +169,35 @@ private:
     return known;
   }
 
-  std::size_t slot(const Point& p) const
+  static std::size_t slot(const Point& p)
   {
-    std::size_t hash = 0;
-    for (int k = 0; k < 3; ++k) boost::hash_combine(hash, CGAL::to_double(p[k]));
-    return hash % known_.size();
+    std::uint64_t hash = 0;
+    for (const double x : xyz(p)) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &x, sizeof bits);
+      hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+    }
+    return static_cast<std::size_t>(hash >> (64 - known_bits));
   }
 
   static const Point& corner(const Facet& f, int i) { return f.cell->vertex((f.index + i) & 3)->point(); }
 
-  static double squared_distance(const Point& p, const Facet& f)
+  static Measured_triangle_3 measured(const Facet& f)
   {
-    return CGAL::to_double(
-        CGAL::squared_distance(p, nearest_point_on_triangle(p, corner(f, 1), corner(f, 2), corner(f, 3))));
+    return {xyz(corner(f, 1)), xyz(corner(f, 2)), xyz(corner(f, 3))};
   }
 
-  void list_star(Vertex_handle v, std::vector<const Facet*>& facets) const
+  void list_star(Vertex_handle v, std::vector<Measured_triangle_3>& facets) const
   {
-    for_each_facet_at(*mesh_, v, [&facets](const Facet& f) { facets.push_back(&f); });
+    mesh_->visit_facets_at(v, [&facets](const Facet& f) { facets.push_back(measured(f)); });
   }
 
   /// Whether one of some facets is within a bound; that one comes first from then on, as the next point is near to p.
-  static bool is_within(const Point& p, double bound, std::vector<const Facet*>& facets)
+  static bool is_within(const Point& p, double bound, std::vector<Measured_triangle_3>& facets)
   {
-    const auto found =
-        std::find_if(facets.begin(), facets.end(), [&](const Facet* f) { return squared_distance(p, *f) <= bound; });
+    const Xyz_3 x = xyz(p);
+    const auto found = std::find_if(facets.begin(), facets.end(),
+                                    [&](const Measured_triangle_3& f) { return f.squared_distance(x) <= bound; });
     if (found == facets.end()) return false;
     std::swap(*found, facets.front());
     return true;
@@ -195,29 +206,31 @@ private:
   /// From a facet, those at the vertices of the cell around p and at those beside the vertex nearest to it; 0 if that
   /// isn't beyond a bound. With only those beside the facet, points on the other side of a thin sheet seem to be far
   /// from a mesh of it, and hide what gets farther than any was before.
-  double squared_distance_from_around(const Point& p, double bound, const Facet& f, Near_point& known) const
+  /// \param own squared distance from the facet.
+  /// \param near where to look from.
+  double squared_distance_from_around(const Point& p, double bound, double own, Cell_handle near,
+                                      Near_point& known) const
   {
     if (known.around < 0) {
-      const double around = squared_distance_from_around(p, bound, f.cell);
+      const double around = squared_distance_from_around(p, bound, near);
       if (around <= bound) return 0;
       known.around = around;
     }
-    const double distance = (std::min)(known.around, squared_distance(p, f));
+    const double distance = (std::min)(known.around, own);
     return distance > bound ? distance : 0;
   }
 
   /// The same without the facet; if that is within the bound, some facet's that is.
-  /// \param near where to look from.
   double squared_distance_from_around(const Point& p, double bound, Cell_handle near) const
   {
     const auto& tr = mesh_->triangulation();
     thread_local std::vector<Vertex_handle> vertices;
-    thread_local std::vector<const Facet*> star;
+    const Xyz_3 x = xyz(p);
     double nearest = HUGE_VAL;
     const auto look = [&](Vertex_handle v) {
-      star.clear();
-      list_star(v, star);
-      for (const Facet* g : star) nearest = (std::min)(nearest, squared_distance(p, *g));
+      mesh_->visit_facets_at(v, [&](const Facet& g) {
+        nearest = (std::min)(nearest, measured(g).squared_distance(x));
+      });
       return nearest <= bound;
     };
     const Cell_handle c = tr.locate(p, near);
@@ -245,7 +258,8 @@ private:
   static constexpr double along_ridges[] = {1. / 6, 1. / 3, 1. / 2, 2. / 3, 5. / 6};
 
   const Restricted* mesh_;
-  mutable std::vector<Near_point> known_{1 << 13}; ///< by a hash of the point
+  static constexpr unsigned known_bits = 13;
+  mutable std::vector<Near_point> known_{std::size_t(1) << known_bits}; ///< by a hash of the point
 };
 
 } // namespace weft::internal

@@ -37,13 +37,20 @@ bool is_beside_sharp_edge(const Oracle& oracle, const Facet& f)
   return is_at_sharp_edge(oracle, f.steiner, 2.25 * f.squared_radius, f.patch);
 }
 
+/// Which points of a facet are asked about.
+enum class Facet_points_3
+{
+  all,
+  steiner_point ///< alone, for facets whose vertices are known to be well
+};
+
 /// Least cosine of the angle between the normals of a boundary facet and of its patch, all pointing out of the same
 /// subdomain: at its Steiner point and near its vertices; 1 where that isn't known. The Steiner point alone doesn't
-/// tell: its Voronoi edge leaves a rod however flat, if only the facet across the rod is a little askew. Facets that
-/// cut off an edge which is sharp and which nobody marked are turned by as much as the surface turns there: 1 for them,
-/// too. \tparam Restricted a Restricted_delaunay_3.
+/// tell: its Voronoi edge leaves a rod however flat, if only the facet across the rod is a little askew.
+/// \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
-double cosine_to_surface(const Restricted& mesh, const typename Restricted::Restricted_facet& f)
+double least_cosine_to_surface_of(const Restricted& mesh, const typename Restricted::Restricted_facet& f,
+                                  Facet_points_3 points)
 {
   if constexpr (Has_normals_3<typename Restricted::Oracle>::value) {
     if (f.triangle < 0) return 1;
@@ -63,6 +70,7 @@ double cosine_to_surface(const Restricted& mesh, const typename Restricted::Rest
       return out == Xyz_3() ? 1 : dot_product(normal, out);
     };
     double least = cosine(f.triangle);
+    if (points == Facet_points_3::steiner_point) return least;
     for (int i = 0; i < 3 && least >= least_cosine_to_surface; ++i) {
       // A vertex on an edge has several normals: that of the side is meant on which the facet is.
       constexpr double inwards = 0.15;
@@ -72,11 +80,21 @@ double cosine_to_surface(const Restricted& mesh, const typename Restricted::Rest
       const auto hit = mesh.oracle().project_on_patch(typename Restricted::Point(p[0], p[1], p[2]), f.patch);
       least = (std::min)(least, cosine(hit.triangle));
     }
-    return least < least_cosine_to_surface && is_beside_sharp_edge(mesh.oracle(), f) ? 1 : least;
+    return least;
   } else {
-    static_cast<void>(mesh), static_cast<void>(f);
+    static_cast<void>(mesh), static_cast<void>(f), static_cast<void>(points);
     return 1;
   }
+}
+
+/// The same, but 1 for facets that cut off an edge which is sharp and which nobody marked: they are turned by as much
+/// as the surface turns there.
+template <class Restricted>
+double cosine_to_surface(const Restricted& mesh, const typename Restricted::Restricted_facet& f,
+                         Facet_points_3 points = Facet_points_3::all)
+{
+  const double least = least_cosine_to_surface_of(mesh, f, points);
+  return least < least_cosine_to_surface && is_beside_sharp_edge(mesh.oracle(), f) ? 1 : least;
 }
 
 } // namespace weft::internal

@@ -11,6 +11,7 @@
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Coarsen_options_3.h>
+#include <weft/spatial/restricted/Removal_preview_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
 #include <weft/spatial/restricted/Vertex_transaction_3.h>
 
@@ -37,7 +38,8 @@ public:
   using Vertex_handle = typename Restricted::Vertex_handle;
 
   Mesh_coarsener_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Coarsen_options_3& options)
-      : mesh_(mesh), guard_(guard), options_(options), is_promising_(mesh.vertices().size(), true), vacant_(mesh)
+      : mesh_(mesh), guard_(guard), options_(options), is_promising_(mesh.vertices().size(), true), vacant_(mesh),
+        preview_(mesh)
   {}
 
   Coarsen_report_3 run()
@@ -49,6 +51,7 @@ public:
       const auto gain = static_cast<double>(report_.removed - before);
       if (gain < options_.least_gain * static_cast<double>(mesh_.vertices().size())) break;
     }
+    mesh_.add_counts(preview_.counts());
     if (report_.removed > 0) guard_.renumber(vacant_.close());
     report_.seconds = timer_.seconds();
     return report_;
@@ -105,7 +108,11 @@ private:
       return false;
     }
     ++report_.tried;
-    const double limit = (std::max)(bound_, worst_angle(v));
+    if (preview_.look_without(v) && !may_be_left_out(v)) {
+      is_promising_[static_cast<std::size_t>(id)] = false;
+      return false;
+    }
+    const double limit = worst_allowed(v);
     Vertex_transaction_3<Restricted> change(mesh_, v);
     if (guard_.may_accept(change.filling())) {
       change.leave_out(vacant_);
@@ -120,6 +127,14 @@ private:
     return false;
   }
 
+  /// Whether nothing that can be seen without changing the mesh speaks against it.
+  bool may_be_left_out(Vertex_handle v)
+  {
+    if (!guard_.may_accept(preview_.cells())) return false;
+    preview_.classify();
+    return keeps_angles(preview_.cells(), worst_allowed(v)) && guard_.may_accept(preview_.cells(), preview_.facets());
+  }
+
   /// Whether the surface at a vertex on a patch is farther from every triangle between its neighbours there than facets
   /// may be, and a little more: the facets that would fill its place are some of those triangles. That spares trials,
   /// and leaves few vertices that could be taken away all the same.
@@ -129,7 +144,7 @@ private:
     const double bound = Approximation_multiples::needed_vertex * guard_.measure().approximation(v->point());
     if (bound == 0) return false;
     neighbours_.clear();
-    for_each_facet_at(mesh_, v, [this, v](const typename Restricted::Restricted_facet& f) {
+    mesh_.visit_facets_at(v, [this, v](const typename Restricted::Restricted_facet& f) {
       for (int i = 1; i < 4; ++i)
         if (f.cell->vertex((f.index + i) & 3) != v) neighbours_.push_back(f.cell->vertex((f.index + i) & 3));
     });
@@ -160,12 +175,13 @@ private:
     }
   }
 
-  /// Cosine of the smallest dihedral angle of the cells around a vertex.
-  double worst_angle(Vertex_handle v)
+  /// Cosine of the smallest dihedral angle that may be made: the bound, or that of the cells around a vertex.
+  double worst_allowed(Vertex_handle v)
   {
+    if (bound_ >= 1) return 1;
     star_.clear();
     mesh_.triangulation().incident_cells(v, std::back_inserter(star_));
-    double worst = -1;
+    double worst = bound_;
     for (const Cell_handle c : star_)
       if (c->subdomain() != 0) worst = (std::max)(worst, cosines_of_cell(c).smallest);
     return worst;
@@ -184,6 +200,7 @@ private:
   bool goes_on_ = true;
   std::vector<char> is_promising_; ///< by id
   Vacant_numbers_3<Restricted> vacant_;
+  Removal_preview_3<Restricted> preview_;
   std::vector<Cell_handle> star_;
   std::vector<Vertex_handle> neighbours_;
   Timer timer_;

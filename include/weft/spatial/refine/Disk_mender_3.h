@@ -107,7 +107,7 @@ private:
   {
     const Restricted_facet* worst = nullptr;
     double error = -1;
-    for_each_facet_at(mesh_, v, [&](const Restricted_facet& f) {
+    mesh_.visit_facets_at(v, [&](const Restricted_facet& f) {
       const double e = measure_.approximation_error(f);
       if (e <= error) return;
       error = e;

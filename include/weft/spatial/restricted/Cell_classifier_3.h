@@ -84,6 +84,12 @@ public:
   const std::vector<Restricted_facet>& facets() const { return facets_; }
 
   const Oracle_counts_3& counts() const { return counts_; }
+  void add_counts(const Oracle_counts_3& other)
+  {
+    counts_.segments += other.segments;
+    counts_.locations += other.locations;
+    counts_.skipped += other.skipped;
+  }
 
 private:
   // What lies across a facet of a new cell: the number of another new cell, or one of these.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The restricted facets of a triangulation that changes, in records with numbers that cells know them by; and while it
-// doesn't change, those around every vertex.
+// The restricted facets of a triangulation that changes, in records with numbers that cells know them by, and in a list
+// for each vertex.
 
 #ifndef WEFT_SPATIAL_RESTRICTED_FACET_RECORDS_3_H
 #define WEFT_SPATIAL_RESTRICTED_FACET_RECORDS_3_H
 
 #include <weft/spatial/restricted/Cell_classifier_3.h>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -49,16 +50,17 @@ public:
   void add(const std::vector<Restricted_facet>& facets, int version)
   {
     newest_.clear();
-    ++changes_;
     for (const Restricted_facet& f : facets) {
       auto record = static_cast<int>(records_.size());
       if (free_.empty()) {
         records_.push_back(f);
+        next_.emplace_back();
       } else {
         record = free_.back();
         free_.pop_back();
         records_[static_cast<std::size_t>(record)] = f;
       }
+      link(record);
       set_version(record, version);
       newest_.push_back(record);
       const auto patch = static_cast<std::size_t>(f.patch);
@@ -77,11 +79,11 @@ public:
   {
     const int record = c->facet_record(i);
     if (record < 0) return;
-    ++changes_;
     const Cell_handle n = c->neighbor(i);
     n->set_facet_record(n->index(c), -1);
     c->set_facet_record(i, -1);
     Restricted_facet& f = records_[static_cast<std::size_t>(record)];
+    unlink(record);
     f.cell = Cell_handle();
     --of_patch_[static_cast<std::size_t>(f.patch)];
     free_.push_back(record);
@@ -93,16 +95,16 @@ public:
     for (int i = 0; i < 4; ++i) remove(c, i);
   }
 
-  /// Forgets all facets, when the cells are gone.
+  /// Forgets all facets, when the cells and vertices are gone.
   void clear()
   {
     records_.clear();
+    next_.clear();
     free_.clear();
     of_patch_.assign(of_patch_.size(), 0);
-    ++changes_;
   }
 
-  /// When the triangulation was copied.
+  /// When the triangulation was copied, with what its vertices know.
   /// \param copies of the cells, by their ids.
   void set_cells(const std::vector<Cell_handle>& copies)
   {
@@ -110,51 +112,66 @@ public:
       if (f.cell != Cell_handle()) f.cell = copies[static_cast<std::size_t>(f.cell->id())];
   }
 
-  // ---- around vertices
-
-  /// Lists the facets at every vertex, which holds until facets change. It pays where many vertices are looked at: no
-  /// cells have to be walked through then. Linear.
-  /// \param vertices how many there are.
-  void list_stars(std::size_t vertices)
-  {
-    if (has_stars()) return;
-    first_.assign(vertices + 1, 0);
-    visit_corners([this](std::size_t v, int) { ++first_[v + 1]; });
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    stars_.resize(first_.back());
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    visit_corners([&](std::size_t v, int record) { stars_[next[v]++] = record; });
-    listed_ = changes_;
-  }
-
-  /// Whether `visit_star()` may be called.
-  bool has_stars() const { return listed_ == changes_; }
-
-  /// Calls `visit(facet)` for each facet at the vertex with an id.
+  /// Calls `visit(facet)` for each facet at a vertex, the newest first.
   template <class Visit>
-  void visit_star(int id, const Visit& visit) const
+  void visit_star(typename Triangulation::Vertex_handle v, const Visit& visit) const
   {
-    const auto v = static_cast<std::size_t>(id);
-    for (std::size_t k = first_[v]; k < first_[v + 1]; ++k) visit(records_[static_cast<std::size_t>(stars_[k])]);
+    for (int r = v->first_facet(); r >= 0;) {
+      const Restricted_facet& f = records_[static_cast<std::size_t>(r)];
+      r = next_[static_cast<std::size_t>(r)][place(f, v)];
+      visit(f);
+    }
   }
 
 private:
-  /// Calls `visit(id of a vertex, record)` for the corners of all facets.
-  template <class Visit>
-  void visit_corners(const Visit& visit) const
+  using Vertex_handle = typename Triangulation::Vertex_handle;
+
+  static Vertex_handle corner(const Restricted_facet& f, std::size_t k)
   {
-    for (std::size_t r = 0; r < records_.size(); ++r)
-      if (records_[r].cell != Cell_handle())
-        for (int i = 1; i <= 3; ++i)
-          visit(static_cast<std::size_t>(records_[r].cell->vertex((records_[r].index + i) & 3)->id()),
-                static_cast<int>(r));
+    return f.cell->vertex((f.index + 1 + static_cast<int>(k)) & 3);
+  }
+  /// Which corner of a facet a vertex is.
+  static std::size_t place(const Restricted_facet& f, Vertex_handle v)
+  {
+    return corner(f, 0) == v ? 0 : corner(f, 1) == v ? 1 : 2;
+  }
+
+  /// Adds a facet to the lists of its corners.
+  void link(int record)
+  {
+    const Restricted_facet& f = records_[static_cast<std::size_t>(record)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vertex_handle v = corner(f, k);
+      next_[static_cast<std::size_t>(record)][k] = v->first_facet();
+      v->set_first_facet(record);
+    }
+  }
+
+  void unlink(int record)
+  {
+    const Restricted_facet& f = records_[static_cast<std::size_t>(record)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vertex_handle v = corner(f, k);
+      const int after = next_[static_cast<std::size_t>(record)][k];
+      int r = v->first_facet();
+      if (r == record) {
+        v->set_first_facet(after);
+        continue;
+      }
+      for (;;) {
+        int& next = next_[static_cast<std::size_t>(r)][place(records_[static_cast<std::size_t>(r)], v)];
+        if (next == record) {
+          next = after;
+          break;
+        }
+        r = next;
+      }
+    }
   }
 
   std::vector<Restricted_facet> records_;
+  std::vector<std::array<int, 3>> next_; ///< by record, for each corner the next facet at it; -1 at the end
   std::vector<int> free_, newest_, of_patch_;
-  std::vector<std::size_t> first_;       ///< of each vertex in `stars_`
-  std::vector<int> stars_;               ///< records
-  std::size_t changes_ = 1, listed_ = 0; ///< the latter: at which of the former stars were listed
 };
 
 } // namespace weft::internal

@@ -48,6 +48,10 @@ public:
   int id() const { return id_; }
   void set_id(int i) { id_ = i; }
 
+  /// Record of the first of the restricted facets at the vertex, which know the next one; -1 if there is none.
+  int first_facet() const { return first_facet_; }
+  void set_first_facet(int record) { first_facet_ = record; }
+
   // With these CGAL orders handles by age instead of by address, in removals for instance, which makes runs repeatable.
   using Has_timestamp = CGAL::Tag_true;
   std::size_t time_stamp() const { return time_stamp_; }
@@ -57,6 +61,7 @@ private:
   std::size_t time_stamp_; // set by CGAL's container alone, which keeps it while the place is free
   Vertex_location_3 location_{-1, 0};
   int id_ = -1;
+  int first_facet_ = -1;
 };
 
 /// Cell base of weft's spatial meshes.

@@ -16,6 +16,7 @@
 #include <weft/spatial/restricted/Facet_records_3.h>
 #include <weft/spatial/restricted/Mesh_triangulation_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
+#include <weft/spatial/restricted/Star_filling_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -85,6 +86,8 @@ public:
   const Triangulation& triangulation() const { return *tr_; }
   const internal::Crease_tracer_3<Triangulation>& creases() const { return tracer_; }
   const internal::Oracle_counts_3& counts() const { return classifier_.counts(); }
+  /// Adds questions that were asked to prepare changes.
+  void add_counts(const internal::Oracle_counts_3& counts) { classifier_.add_counts(counts); }
 
   /// All vertices but those of the box, by id; null for those that `coarsen_3()` has taken away so far while it runs.
   const std::vector<Vertex_handle>& vertices() const { return vertices_; }
@@ -126,16 +129,12 @@ public:
   const Restricted_facet* facet(Cell_handle c, int i) const { return facets_.find(c, i); }
   /// How many restricted facets have their Steiner point on a patch.
   int number_of_facets(int patch) const { return facets_.number_on(patch); }
-  /// Lists the restricted facets at every vertex, so that `for_each_facet_at()` is fast until something changes. It
-  /// pays where many vertices are looked at. Not while other threads read this mesh. Linear.
-  void list_facets_at_vertices() const { facets_.list_stars(vertices_.size()); }
-  /// Whether that has been done since the last change.
-  bool has_facets_at_vertices() const { return facets_.has_stars(); }
-  /// Then calls `visit(facet)` for each of them.
+  /// Calls `visit(facet)` for each restricted facet at a vertex; `visit` mustn't change the mesh. Linear in their
+  /// number.
   template <class Visit>
   void visit_facets_at(Vertex_handle v, const Visit& visit) const
   {
-    if (v->id() >= 0) facets_.visit_star(v->id(), visit);
+    facets_.visit_star(v, visit);
   }
   /// Whether a restricted facet separates the domain from the outside.
   bool is_boundary(const Restricted_facet& f) const
@@ -296,7 +295,10 @@ private:
     vertices_[static_cast<std::size_t>(v->id())] = Vertex_handle();
     if (!creases_are_stale_) tracer_.forget(v);
     std::vector<Cell_handle> filling;
-    tr_->remove_and_give_new_cells(v, std::back_inserter(filling));
+    if (filling_.find(*tr_, v, star))
+      filling_.replace(*tr_, v, star, filling);
+    else
+      tr_->remove_and_give_new_cells(v, std::back_inserter(filling));
     return filling;
   }
 
@@ -329,7 +331,8 @@ private:
   internal::Cell_classifier_3<Triangulation, Oracle> classifier_;
   std::unique_ptr<Triangulation> tr_; ///< at a fixed place, so that handles survive moves of this object
   internal::Crease_tracer_3<Triangulation> tracer_;
-  mutable internal::Facet_records_3<Triangulation> facets_; ///< as for what it says of vertices
+  internal::Facet_records_3<Triangulation> facets_;
+  internal::Star_filling_3<Triangulation> filling_; ///< of the vertex that is taken away
   std::vector<Vertex_handle> vertices_;
   std::vector<std::size_t> spatial_order_; ///< of the vertices at some time
   std::vector<char> fixed_;                ///< by vertex, those at the end may be missing: see `is_fixed()`
@@ -339,21 +342,6 @@ private:
   bool creases_are_stale_ = true;      ///< single insertions don't follow them at once
   std::vector<Cell_handle> new_cells_; ///< not classified yet
 };
-
-/// Calls `visit(facet)` for each restricted facet at a vertex, once; `visit` mustn't come back here. Linear in the
-/// cells around it, or in those facets if they are listed.
-template <class Restricted, class Visit>
-void for_each_facet_at(const Restricted& mesh, typename Restricted::Vertex_handle v, const Visit& visit)
-{
-  if (mesh.has_facets_at_vertices()) return mesh.visit_facets_at(v, visit);
-  thread_local std::vector<typename Restricted::Cell_handle> cells;
-  cells.clear();
-  mesh.triangulation().incident_cells(v, std::back_inserter(cells));
-  for (const auto c : cells)
-    for (int i = 0; i < 4; ++i)
-      if (c->vertex(i) != v)
-        if (const auto* f = mesh.facet(c, i); f && f->cell == c) visit(*f);
-}
 
 } // namespace weft
 

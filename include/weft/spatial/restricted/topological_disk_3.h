@@ -46,7 +46,7 @@ bool has_topological_disk(const Restricted& mesh, typename Restricted::Vertex_ha
   thread_local std::vector<std::pair<int, int>> sides;
   link.clear();
   sides.clear();
-  for_each_facet_at(mesh, v, [&](const typename Restricted::Restricted_facet& f) {
+  mesh.visit_facets_at(v, [&](const typename Restricted::Restricted_facet& f) {
     Vertex_handle ends[2];
     int n = 0;
     for (int k = 0; k < 4; ++k)
