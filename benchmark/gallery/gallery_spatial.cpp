@@ -11,8 +11,8 @@
 // Writes PREFIX_weft.mesh, PREFIX_cgal.mesh and PREFIX.json. --push: besides weft's default run, one that goes on
 // perturbing slivers for so long. The time limit is that of CGAL's perturbation and of weft, 120 unless given.
 
+#include "gallery_domains.h"
 #include "gallery_program.h"
-#include "spatial/gallery_domains.h"
 
 #include <weft/IO/read_label_image.h>
 #include <weft/spatial/domain/Label_image_3.h>

@@ -3,11 +3,11 @@
 // The two kinds of domains of the gallery. Each is meshed in a translation unit of its own: CGAL's mesher and weft's
 // take gigabytes to compile for one.
 
-#ifndef WEFT_BENCHMARK_GALLERY_SPATIAL_GALLERY_DOMAINS_H
-#define WEFT_BENCHMARK_GALLERY_SPATIAL_GALLERY_DOMAINS_H
+#ifndef WEFT_BENCHMARK_GALLERY_GALLERY_DOMAINS_H
+#define WEFT_BENCHMARK_GALLERY_GALLERY_DOMAINS_H
 
-#include "../../spatial/spatial_inputs.h"
-#include "../gallery_program.h"
+#include "../spatial/spatial_inputs.h"
+#include "gallery_program.h"
 
 #include <CGAL/Bbox_3.h>
 
@@ -32,4 +32,4 @@ void mesh_surface(const Gallery_arguments& a, const Spatial_input& input);
 
 } // namespace benchmark
 
-#endif // WEFT_BENCHMARK_GALLERY_SPATIAL_GALLERY_DOMAINS_H
+#endif // WEFT_BENCHMARK_GALLERY_GALLERY_DOMAINS_H

@@ -2,13 +2,13 @@
 //
 // The meshes of one spatial model of the gallery by weft and by CGAL, and their figures.
 
-#ifndef WEFT_BENCHMARK_GALLERY_SPATIAL_GALLERY_MESHES_H
-#define WEFT_BENCHMARK_GALLERY_SPATIAL_GALLERY_MESHES_H
+#ifndef WEFT_BENCHMARK_GALLERY_GALLERY_MESHES_H
+#define WEFT_BENCHMARK_GALLERY_GALLERY_MESHES_H
 
-#include "../../common/user_time.h"
-#include "../../spatial/spatial_inputs.h"
-#include "../../spatial/spatial_peers.h"
-#include "../gallery_program.h"
+#include "../common/user_time.h"
+#include "../spatial/spatial_inputs.h"
+#include "../spatial/spatial_peers.h"
+#include "gallery_program.h"
 
 #include <weft/IO/write_medit_3.h>
 #include <weft/make_mesh_3.h>
@@ -152,4 +152,4 @@ inline Criteria criteria_of(const Bounds& bounds)
 
 } // namespace benchmark
 
-#endif // WEFT_BENCHMARK_GALLERY_SPATIAL_GALLERY_MESHES_H
+#endif // WEFT_BENCHMARK_GALLERY_GALLERY_MESHES_H
