@@ -148,12 +148,12 @@ private:
       }
     });
     constexpr double flat = 0.7; // of a sheet's area that its border goes around
-    which.erase(std::remove_if(which.begin(), which.end(),
-                               [&, i = std::size_t(0)](std::size_t) mutable {
-                                 const Piece& piece = of.at(pieces.find(i++));
-                                 return piece.is_free && piece.is_held && norm(piece.normal) > flat * piece.area;
-                               }),
-                which.end());
+    std::vector<std::size_t> kept;
+    for (std::size_t t = 0; t < which.size(); ++t) {
+      const Piece& piece = of.at(pieces.find(t));
+      if (!(piece.is_free && piece.is_held && norm(piece.normal) > flat * piece.area)) kept.push_back(which[t]);
+    }
+    which = std::move(kept);
   }
 
   double area(const Corners& t) const

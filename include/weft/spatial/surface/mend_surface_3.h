@@ -9,6 +9,7 @@
 #include <weft/errors.h>
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/internal/Disjoint_parts.h>
+#include <weft/spatial/surface/closed_pieces_3.h>
 #include <weft/spatial/surface/derive_features_3.h>
 #include <weft/spatial/surface/Facet_cleaner_3.h>
 #include <weft/spatial/surface/Hole_capper_3.h>
@@ -78,8 +79,13 @@ public:
     Triangle_surface_3<K> surface = triangle_surface();
     const std::vector<int> net = nets();
     Surface_regions_3<K> regions(surface, net);
-    const std::vector<bool> is_inwards = regions.looking_inwards();
-    for (std::size_t t = 0; t < is_inwards.size(); ++t) bounds_nothing.push_back(regions.bounds_nothing(t));
+    std::vector<bool> is_inwards = regions.looking_inwards();
+    const std::vector<Piece_side> outer = sides_of_closed_pieces(surface);
+    for (std::size_t t = 0; t < is_inwards.size(); ++t) {
+      // Regions mean little where facets cross.
+      bounds_nothing.push_back(outer[t] == Piece_side::unknown && regions.bounds_nothing(t));
+      if (outer[t] != Piece_side::unknown) is_inwards[t] = outer[t] == Piece_side::behind;
+    }
     for (std::size_t t = 0; t < is_inwards.size(); ++t)
       if (is_inwards[t]) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
     return surface;
@@ -228,7 +234,7 @@ private:
     double caps = 0;
     for (const Open_part_3& part : capper.parts()) {
       caps += part.area_of_caps();
-      if (part.holes.empty()) refuse_them("a part of the surface is closed and yet bounds nothing: it is one-sided");
+      if (part.holes.empty()) refuse_them("a closed part of the surface bounds nothing");
       const double share = part.share_of_caps();
       if (options_.most_capped == 0 ? share <= least_of_open : share <= options_.most_capped)
         refuse_them("a part of the surface has a hole" + std::string(with_caps_ ? " that no cap fits" : ""));
