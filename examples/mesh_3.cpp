@@ -12,6 +12,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/counted.h>
+#include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/surface/Mending_record_3.h>
 
@@ -245,16 +246,16 @@ void write_files(const Request& request, const Result& result, command_line::Out
 
 // ---- The run
 
-/// The domain that the input bounds; says what was changed in it.
-std::unique_ptr<Domain> read_domain(const Request& request)
+/// The domain that the input bounds.
+/// \param go_on see `weft::Mend_options_3`.
+std::unique_ptr<Domain> read_domain(const Request& request, const std::function<bool(const char*)>& go_on)
 {
+  mesh_3_program::Mending mending = request.mending;
+  mending.options.go_on = go_on;
   const bool is_image = mesh_3_program::is_image_filename(request.inputs.front());
   try {
-    auto domain = is_image ? mesh_3_program::read_image(request.inputs.front(), request.image)
-                           : mesh_3_program::read_surfaces(request.inputs, request.features, request.mending);
-    for (const std::string& change : domain->changes())
-      if (!request.quiet) command_line::complain("mesh_3", request.input() + ": " + change);
-    return domain;
+    return is_image ? mesh_3_program::read_image(request.inputs.front(), request.image)
+                    : mesh_3_program::read_surfaces(request.inputs, request.features, mending);
   } catch (const weft::Domain_error& error) {
     const std::string what = error.what();
     const char* advice = "";
@@ -282,13 +283,29 @@ mesh_3_program::Bounds bounds(const Request& request, const Domain& domain)
 /// Meshes, writes all files and tells how it went.
 Status run(const Request& request)
 {
-  const std::unique_ptr<Domain> domain = read_domain(request);
-  command_line::Output_files files;
-  announce(request, files);
-
   const command_line::Interruption interruption;
   Meshing_progress progress(!request.quiet, 0.1);
+  const weft::internal::Timer timer;
   weft::Mesh_options_3 options = request.options;
+  std::unique_ptr<Domain> domain;
+  try {
+    domain = read_domain(request, [&](const char* doing) {
+      progress.bar().show(0, doing);
+      return !command_line::Interruption::wished() && timer.seconds() < options.time_limit;
+    });
+  } catch (const weft::Stopped_error& error) {
+    throw Error(
+        request.input() + ": no mesh yet, " + error.what() + ", " +
+        name(command_line::Interruption::wished() ? weft::Stop_reason::cancelled : weft::Stop_reason::time_limit) +
+        "; nothing is written");
+  }
+  progress.bar().clear();
+  for (const std::string& change : domain->changes())
+    if (!request.quiet) command_line::complain("mesh_3", request.input() + ": " + change);
+  command_line::Output_files files;
+  announce(request, files);
+  options.time_limit = std::max(0.0, options.time_limit - timer.seconds());
+
   options.visitor = std::ref(progress);
   const mesh_3_program::Bounds asked = bounds(request, *domain);
   options.size_floor = domain->least_edge();

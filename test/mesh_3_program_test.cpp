@@ -114,7 +114,7 @@ TEST_CASE("bad usage gives status 1, one line on stderr and no file")
 {
   const Folder folder("usage");
   const std::vector<std::string> bad = {"",
-                                        "cube.off open.off",
+                                        "cube.off open.off --strict",
                                         "cube.off --bogus",
                                         "cube.off --size",
                                         "cube.off --size -1",

@@ -44,6 +44,13 @@ public:
   using Error::Error;
 };
 
+/// A run was ended by the caller before there was anything to return.
+class Stopped_error : public Error
+{
+public:
+  using Error::Error;
+};
+
 /// An input domain that doesn't qualify; lists the vertices, segments or facets that are to blame.
 class Domain_error : public Error
 {

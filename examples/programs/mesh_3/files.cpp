@@ -67,7 +67,10 @@ std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames,
                                       const Mending& mending)
 {
   Surfaces surfaces;
-  for (const std::string& name : filenames) surfaces.push_back(weft::IO::read_surface<K>(name));
+  for (const std::string& name : filenames) {
+    weft::internal::ask_to_go_on(mending.options, "reading");
+    surfaces.push_back(weft::IO::read_surface<K>(name));
+  }
   if (mending.strict) return std::make_unique<Surface_domain>(weft::piecewise_smooth_complex(surfaces, features));
   auto complex = weft::mended_complex_3(surfaces, features, mending.options);
   if (complex.changes.empty()) surfaces.clear(); // the mesh is compared with the complex

@@ -38,6 +38,17 @@ public:
     if (in.bad()) throw File_error(filename, 0, "can't be read");
   }
 
+  /// Makes one line of those that end with a backslash and the next. \pre No line has been read.
+  void join_lines()
+  {
+    for (std::size_t at = 0; (at = text_.find('\\', at)) != std::string::npos; ++at) {
+      const std::size_t end = text_.find_first_not_of(" \t\r", at + 1);
+      if (end == std::string::npos || text_[end] != '\n') continue;
+      text_[at] = ' ';
+      text_[end] = joint;
+    }
+  }
+
   /// Goes to the next line that holds more than blanks and a comment; false at the end of the file.
   bool next_line()
   {
@@ -45,7 +56,7 @@ public:
       const std::size_t end = std::min(text_.find('\n', position_), text_.size());
       rest_ = std::string_view(text_).substr(position_, end - position_);
       position_ = end + 1;
-      ++line_;
+      line_ += 1 + static_cast<std::size_t>(std::count(rest_.begin(), rest_.end(), joint));
       rest_ = rest_.substr(0, rest_.find('#'));
       skip_blanks();
       if (!rest_.empty()) return true;
@@ -159,6 +170,7 @@ public:
   }
 
 private:
+  static constexpr char joint = '\v'; ///< where a line was joined to the next
   static constexpr const char* blanks = " \t\r\f\v";
 
   void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(blanks), rest_.size())); }

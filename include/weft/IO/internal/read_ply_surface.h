@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Reads surfaces from PLY files, text or binary of either byte order: the coordinates of the vertices and the corners
-// of the faces; all other elements and properties are passed over.
+// of the faces and triangle strips; all other elements and properties are passed over.
 
 #ifndef WEFT_IO_INTERNAL_READ_PLY_SURFACE_H
 #define WEFT_IO_INTERNAL_READ_PLY_SURFACE_H
@@ -267,6 +267,34 @@ inline std::vector<std::size_t> read_ply_face(Ply_reader& in, const Ply_element&
   return corners;
 }
 
+/// Adds the triangles of strips, each of which ends with -1: of three corners in a row, every second one backwards.
+inline void add_ply_strips(Ply_reader& in, const Ply_element& element, std::vector<std::vector<std::size_t>>& triangles)
+{
+  for (const Ply_property& property : element.properties) {
+    const bool is_corners = property.name == "vertex_indices" || property.name == "vertex_index";
+    const std::size_t count = property.is_list ? in.count(property.count_type) : 1;
+    std::vector<std::size_t> strip;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = in.value(property.type);
+      if (!is_corners) continue;
+      if (value == -1) {
+        strip.clear();
+        continue;
+      }
+      if (!(value >= 0 && value < 1e15) || value != std::floor(value)) in.fail("a corner of a strip is no point");
+      strip.push_back(static_cast<std::size_t>(value));
+      const std::size_t n = strip.size();
+      if (n < 3) continue;
+      const std::size_t a = strip[n - 3], b = strip[n - 2], c = strip[n - 1];
+      if (a == b || b == c || c == a) continue; // a turn of the strip
+      if (n % 2 == 1)
+        triangles.push_back({a, b, c});
+      else
+        triangles.push_back({b, a, c});
+    }
+  }
+}
+
 /// Reads a PLY file.
 template <class K>
 Polygon_soup_3<K> read_ply_surface(const std::string& filename)
@@ -281,6 +309,8 @@ Polygon_soup_3<K> read_ply_surface(const std::string& filename)
         soup.points.push_back(read_ply_point<typename K::Point_3>(in, element));
       else if (is_face)
         soup.polygons.push_back(read_ply_face(in, element));
+      else if (element.name == "tristrips")
+        add_ply_strips(in, element, soup.polygons);
       else
         read_ply_point<typename K::Point_3>(in, element); // passed over
   }

@@ -126,6 +126,9 @@ Polygon_soup_3<K> read_stl_surface(const std::string& filename)
   const std::size_t facets = has_header ? stl_integer(bytes, stl_header_bytes - 4) : 0;
   if (has_header && bytes.size() == stl_header_bytes + facets * stl_facet_bytes)
     return read_binary_stl<K>(filename, bytes);
+  if (has_header && bytes.compare(0, 5, "solid") != 0 && facets > 0 &&
+      bytes.size() > stl_header_bytes + facets * stl_facet_bytes) // padded
+    return read_binary_stl<K>(filename, bytes.substr(0, stl_header_bytes + facets * stl_facet_bytes));
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
   if (start == std::string::npos) throw File_error(filename, 0, "the file is empty");
   if (bytes.compare(start, 5, "solid") == 0) return read_text_stl<K>(filename);

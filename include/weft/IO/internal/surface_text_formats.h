@@ -39,7 +39,21 @@ inline void read_off_header(Line_reader& in)
   if (in.at_end_of_line()) in.require_line("the numbers of points and facets");
 }
 
-/// Reads an OFF file.
+/// Reads a facet of an OFF file, which may go over several lines; what follows on its last line is passed over.
+inline std::vector<std::size_t> read_off_facet(Line_reader& in, std::size_t number_of_points)
+{
+  const long long corners = in.bounded_count("the number of corners");
+  std::vector<std::size_t> facet;
+  for (long long i = 0; i < corners; ++i) {
+    in.require_word("a corner");
+    const long long v = in.bounded_count("a corner");
+    if (static_cast<std::size_t>(v) >= number_of_points) in.fail("there is no point " + std::to_string(v));
+    facet.push_back(static_cast<std::size_t>(v));
+  }
+  return facet;
+}
+
+/// Reads an OFF file. Facets beyond those that it announces are facets, too.
 template <class K>
 Polygon_soup_3<K> read_off_surface(const std::string& filename)
 {
@@ -57,23 +71,18 @@ Polygon_soup_3<K> read_off_surface(const std::string& filename)
   soup.polygons.reserve(number_of_facets);
   for (std::size_t f = 0; f < number_of_facets; ++f) {
     in.require_line("facet " + std::to_string(f) + " of " + std::to_string(number_of_facets));
-    const long long corners = in.bounded_count("the number of corners");
-    soup.polygons.emplace_back();
-    for (long long i = 0; i < corners; ++i) {
-      const long long v = in.bounded_count("a corner");
-      if (static_cast<std::size_t>(v) >= number_of_points) in.fail("there is no point " + std::to_string(v));
-      soup.polygons.back().push_back(static_cast<std::size_t>(v));
-    }
+    soup.polygons.push_back(read_off_facet(in, number_of_points));
   }
-  in.require_end_of_file(); // a facet too many would be lost without a word
+  while (in.next_line()) soup.polygons.push_back(read_off_facet(in, number_of_points)); // not lost without a word
   return soup;
 }
 
-/// Reads the points (v) and faces (f) of an OBJ file.
+/// Reads the points (v) and faces (f) of an OBJ file, whose lines go on after a backslash.
 template <class K>
 Polygon_soup_3<K> read_obj_surface(const std::string& filename)
 {
   Line_reader in(filename);
+  in.join_lines();
   Polygon_soup_3<K> soup;
   while (in.next_line()) {
     const std::string_view keyword = in.word("a keyword");

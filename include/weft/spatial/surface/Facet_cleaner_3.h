@@ -63,6 +63,7 @@ protected:
   ///        than the tolerance, not only at edges that don't have two facets.
   void clean(bool everywhere)
   {
+    ask_to_go_on(options_, "welding points");
     drop_degenerate(everywhere ? tolerance_ : 0);
     drop_duplicates();
     weld(everywhere);

@@ -58,8 +58,9 @@ class Hole_capper_3
 
 public:
   /// \param which positions of the triangles that count, in ascending order.
-  Hole_capper_3(const Triangle_surface_3<K>& surface, const std::vector<std::size_t>& which) : points_(surface.points)
+  Hole_capper_3(const Triangle_surface_3<K>& surface, std::vector<std::size_t> which) : points_(surface.points)
   {
+    leave_out_fins(surface, which);
     std::vector<Corners> triangles;
     for (const std::size_t t : which) triangles.push_back(surface.triangles[t]);
     Disjoint_parts parts(triangles.size());
@@ -90,18 +91,71 @@ public:
 
   const std::vector<Open_part_3>& parts() const { return parts_; }
 
-  /// Closes the holes of parts of which at most this share would be caps.
-  void cap(double most)
+  /// Closes the holes of parts of which at most this share would be caps. \param ask called before each.
+  template <class Ask>
+  void cap(double most, const Ask& ask)
   {
     for (Open_part_3& part : parts_) {
       if (!(part.share_of_caps() <= 1.5 * most)) continue; // a rough figure so far
-      for (Hole_3& hole : part.holes) triangulate(hole);
+      for (Hole_3& hole : part.holes) {
+        ask();
+        triangulate(hole);
+      }
       if (part.share_of_caps() <= most) continue;
       for (Hole_3& hole : part.holes) hole.triangles.clear();
     }
   }
 
 private:
+  /// Takes sheets out that hang on edges of others by a part of their border: around them caps would be sheets, too.
+  void leave_out_fins(const Triangle_surface_3<K>& surface, std::vector<std::size_t>& which) const
+  {
+    std::vector<Corners> triangles;
+    for (const std::size_t t : which) triangles.push_back(surface.triangles[t]);
+    const auto sides = sorted_sides(triangles);
+    Disjoint_parts pieces(triangles.size());
+    bool are_crowded = false;
+    for_each_edge(sides, [&](auto first, auto last) {
+      if (last - first == 2) pieces.unite(first->triangle, (first + 1)->triangle);
+      are_crowded = are_crowded || last - first > 2;
+    });
+    if (!are_crowded) return;
+    struct Piece
+    {
+      double area = 0;
+      bool is_free = false, is_held = false;
+      Xyz_3 origin{{0, 0, 0}}, normal{{0, 0, 0}};
+    };
+    std::map<std::size_t, Piece> of;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto [at, is_new] = of.try_emplace(pieces.find(t));
+      if (is_new) at->second.origin = xyz(points_[triangles[t][0]]);
+      at->second.area += area(triangles[t]);
+    }
+    for_each_edge(sides, [&](auto first, auto last) {
+      if (last - first == 2) return;
+      for (auto s = first; s != last; ++s) {
+        Piece& piece = of.at(pieces.find(s->triangle));
+        const bool is_alone = std::count_if(first, last, [&](const auto& other) {
+                                return pieces.find(other.triangle) == pieces.find(s->triangle);
+                              }) == 1;
+        if (!is_alone) continue;
+        (last - first == 1 ? piece.is_free : piece.is_held) = true;
+        // The area that the border goes around, as a vector.
+        const Xyz_3 cross =
+            cross_product(minus(xyz(points_[s->low]), piece.origin), minus(xyz(points_[s->high]), piece.origin));
+        for (std::size_t k = 0; k < 3; ++k) piece.normal[k] += (s->forward ? cross[k] : -cross[k]) / 2;
+      }
+    });
+    constexpr double flat = 0.7; // of a sheet's area that its border goes around
+    std::vector<std::size_t> kept;
+    for (std::size_t t = 0; t < which.size(); ++t) {
+      const Piece& piece = of.at(pieces.find(t));
+      if (!(piece.is_free && piece.is_held && norm(piece.normal) > flat * piece.area)) kept.push_back(which[t]);
+    }
+    which = std::move(kept);
+  }
+
   double area(const Corners& t) const
   {
     const Xyz_3 a = xyz(points_[t[0]]);

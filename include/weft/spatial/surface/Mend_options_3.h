@@ -7,6 +7,9 @@
 
 #include <weft/errors.h>
 
+#include <functional>
+#include <string>
+
 namespace weft {
 
 /// Options of `mended_complex_3()`.
@@ -23,6 +26,10 @@ struct Mend_options_3
   /// Holes of a part of the surface are capped if caps are at most this part of its area; 0: none.
   double most_capped = 0.3;
 
+  /// Asked again and again whether to go on, from the thread that mends, with what is being done; none: always. If it
+  /// says no, mending ends with a Stopped_error.
+  std::function<bool(const char*)> go_on;
+
   /// \throws Option_error naming the first option out of range.
   void check() const
   {
@@ -32,6 +39,15 @@ struct Mend_options_3
   }
 };
 
+namespace internal {
+
+/// \throws Stopped_error if the caller doesn't want to go on.
+inline void ask_to_go_on(const Mend_options_3& options, const char* doing)
+{
+  if (options.go_on && !options.go_on(doing)) throw Stopped_error(std::string("stopped while ") + doing);
+}
+
+} // namespace internal
 } // namespace weft
 
 #endif // WEFT_SPATIAL_SURFACE_MEND_OPTIONS_3_H

@@ -50,6 +50,18 @@ struct Mending_record_3
     area_of_caps += earlier.area_of_caps;
   }
 
+  /// Adds what was done to another surface.
+  void add(const Mending_record_3& other)
+  {
+    add_earlier(other);
+    turned += other.turned;
+    left_out += other.left_out;
+    within_void += other.within_void;
+    within_domain += other.within_domain;
+    area += other.area;
+    area_left_out += other.area_left_out;
+  }
+
   /// One line for each thing, for people.
   std::vector<std::string> lines() const
   {

@@ -8,6 +8,8 @@
 #ifndef WEFT_SPATIAL_SURFACE_PIECEWISE_SMOOTH_COMPLEX_3_H
 #define WEFT_SPATIAL_SURFACE_PIECEWISE_SMOOTH_COMPLEX_3_H
 
+#include <weft/spatial/surface/Mending_record_3.h>
+
 #include <array>
 #include <cstddef>
 #include <string>
@@ -64,6 +66,7 @@ struct Piecewise_smooth_complex_3
   int number_of_shells = 0;
   std::vector<std::string> changes; ///< what was changed in the input, for people, one line each: shells turned over,
                                     ///< what was mended; empty if nothing
+  Mending_record_3 mending;         ///< the same in numbers, but for shells
 };
 
 } // namespace weft

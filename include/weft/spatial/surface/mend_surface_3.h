@@ -9,6 +9,7 @@
 #include <weft/errors.h>
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/internal/Disjoint_parts.h>
+#include <weft/spatial/surface/closed_pieces_3.h>
 #include <weft/spatial/surface/derive_features_3.h>
 #include <weft/spatial/surface/Facet_cleaner_3.h>
 #include <weft/spatial/surface/Hole_capper_3.h>
@@ -78,8 +79,13 @@ public:
     Triangle_surface_3<K> surface = triangle_surface();
     const std::vector<int> net = nets();
     Surface_regions_3<K> regions(surface, net);
-    const std::vector<bool> is_inwards = regions.looking_inwards();
-    for (std::size_t t = 0; t < is_inwards.size(); ++t) bounds_nothing.push_back(regions.bounds_nothing(t));
+    std::vector<bool> is_inwards = regions.looking_inwards();
+    const std::vector<Piece_side> outer = sides_of_closed_pieces(surface);
+    for (std::size_t t = 0; t < is_inwards.size(); ++t) {
+      // Regions mean little where facets cross.
+      bounds_nothing.push_back(outer[t] == Piece_side::unknown && regions.bounds_nothing(t));
+      if (outer[t] != Piece_side::unknown) is_inwards[t] = outer[t] == Piece_side::behind;
+    }
     for (std::size_t t = 0; t < is_inwards.size(); ++t)
       if (is_inwards[t]) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
     return surface;
@@ -117,7 +123,7 @@ private:
     const std::vector<int> net = nets();
     Surface_regions_3<K> regions(all, net);
     Hole_capper_3<K> capper(all, bounding_nothing(regions));
-    capper.cap(options_.most_capped);
+    capper.cap(options_.most_capped, [this] { ask_to_go_on(options_, "capping holes"); });
     for (const Open_part_3& part : capper.parts())
       for (const Hole_3& hole : part.holes) {
         if (hole.triangles.empty()) continue;
@@ -136,6 +142,7 @@ private:
 
   Mended_surface_3<K> find_domain(bool is_union)
   {
+    ask_to_go_on(options_, "looking for regions");
     const Triangle_surface_3<K> all = triangle_surface();
     const std::vector<int> net = nets();
     Surface_regions_3<K> regions(all, net);
@@ -219,22 +226,27 @@ private:
     sort_unique(facets);
     const auto refuse_them = [&](const std::string& what) { throw Domain_error(what, {}, std::move(facets)); };
     const auto percent = [](double share) { return Mending_record_3::percent(share); };
+    const auto refuse_open = [&](double share) {
+      refuse_them("an open surface: caps of its holes would be " + percent(share) +
+                  " of the area: close it, or give it a thickness");
+    };
     const Hole_capper_3<K> capper(all, left_out);
     double caps = 0;
     for (const Open_part_3& part : capper.parts()) {
       caps += part.area_of_caps();
-      if (part.holes.empty()) refuse_them("a part of the surface is closed and yet bounds nothing: it is one-sided");
-      if (part.share_of_caps() <= options_.most_capped)
+      if (part.holes.empty()) refuse_them("a closed part of the surface bounds nothing");
+      const double share = part.share_of_caps();
+      if (options_.most_capped == 0 ? share <= least_of_open : share <= options_.most_capped)
         refuse_them("a part of the surface has a hole" + std::string(with_caps_ ? " that no cap fits" : ""));
+      if (share <= least_of_open) refuse_open(share);
     }
     if (record_.area_left_out <= options_.most_left_out * record_.area) return;
     if (left_out.size() < facets_.size())
       refuse_them("sheets that bound nothing are " + percent(record_.area_left_out / record_.area) +
                   " of the area: give them a thickness, or leave them out");
     const double share = caps / (caps + record_.area);
-    refuse_them(share > least_of_sheets ? "a sheet: give it a thickness"
-                                        : "an open surface: caps of its holes would be " + percent(share) +
-                                              " of the area: close it, or give it a thickness");
+    if (share <= least_of_sheets) refuse_open(share);
+    refuse_them("a sheet: give it a thickness");
   }
   /// Finds out whether the surface is manifold, and where not.
   static void describe(Mended_surface_3<K>& result)
@@ -264,7 +276,8 @@ private:
     if (!result.pinches.empty()) result.is_manifold = false;
   }
 
-  static constexpr double least_of_sheets = 0.42; ///< share of caps: half of a box has less, a sheet about 0.5
+  static constexpr double least_of_open = 0.3;    ///< share of caps, from which on a small part may be left out
+  static constexpr double least_of_sheets = 0.42; ///< that of half a box is less, that of a sheet about 0.5
   bool with_caps_;
 };
 

@@ -75,6 +75,7 @@ Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, cons
   }
   complex.changes.insert(complex.changes.begin(), notes.begin(), notes.end());
   complex.left_out = std::move(mended.left_out);
+  complex.mending = mended.record;
   return complex;
 }
 
@@ -135,7 +136,7 @@ std::vector<Resolved_surface_3<K>> resolve(const std::vector<Polygon_soup_3<K>>&
     for (auto other = first + 1; other != last; ++other) parts.unite(first->triangle, other->triangle);
   });
   const std::vector<std::size_t> surface_of = all.origins;
-  Intersection_resolver_3<K> resolver(all, snapping * std::hypot(box.x_span(), box.y_span(), box.z_span()));
+  Intersection_resolver_3<K> resolver(all, mending, snapping * std::hypot(box.x_span(), box.y_span(), box.z_span()));
   const std::size_t cut = resolver.resolve();
   if (cut == 0) throw Domain_error("no facets intersect", {}, {});
   for (const auto& [a, b] : resolver.pairs())
@@ -225,6 +226,7 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
       common.snapped = snapped;
       const auto lines = common.lines();
       complex.changes.insert(complex.changes.begin(), lines.begin(), lines.end());
+      complex.mending.add(common);
       return complex;
     } catch (const Domain_error&) {
     }

@@ -199,8 +199,10 @@ auto merge_surfaces(const std::vector<Surface>& surfaces, const Feature_options&
   }
   auto complex = Surface_merger_3<K>(complexes).complex(options);
   complex.changes = std::move(changes);
-  for (const Complex& part : complexes)
+  for (const Complex& part : complexes) {
     complex.left_out.insert(complex.left_out.end(), part.left_out.begin(), part.left_out.end());
+    complex.mending.add(part.mending);
+  }
   return complex;
 }
 

@@ -8,6 +8,7 @@
 
 #include <weft/errors.h>
 #include <weft/spatial/surface/check_surface_volume_3.h>
+#include <weft/spatial/surface/Mend_options_3.h>
 #include <weft/spatial/surface/Plane_snapper_3.h>
 #include <weft/spatial/surface/surface_topology_3.h>
 
@@ -41,9 +42,10 @@ class Intersection_resolver_3
 public:
   /// \pre No triangle is degenerate, and no two have the same vertices. Pieces have the origins of their triangles; of
   /// pieces on the same vertices each stays.
+  /// \param options is asked whether to go on, and has to stay.
   /// \param tolerance within it triangles are put into one plane before; 0: they aren't.
-  explicit Intersection_resolver_3(Triangle_surface_3<K>& surface, double tolerance = 0)
-      : surface_(surface), tolerance_(tolerance)
+  Intersection_resolver_3(Triangle_surface_3<K>& surface, const Mend_options_3& options, double tolerance)
+      : surface_(surface), options_(options), tolerance_(tolerance)
   {}
 
   /// How many points were moved onto planes.
@@ -61,15 +63,20 @@ public:
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     if (pairs.size() > most_pairs) throw Domain_error("too many facets intersect", {}, {});
-    for (const auto& [s, t] : pairs) meet(s, t);
+    for (const auto& [s, t] : pairs) {
+      ask_to_go_on(options_, "intersecting facets");
+      meet(s, t);
+    }
     Triangle_surface_3<K> result;
     result.points = surface_.points;
     for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
       const auto found = cuts_.find(t);
       if (found == cuts_.end())
         result.triangles.push_back(surface_.triangles[t]);
-      else
+      else {
+        ask_to_go_on(options_, "cutting facets");
         cut(t, found->second, result);
+      }
       result.origins.resize(result.triangles.size(), surface_.origin(t));
     }
     surface_ = std::move(result);
@@ -179,6 +186,7 @@ private:
   }
 
   Triangle_surface_3<K>& surface_;
+  const Mend_options_3& options_;
   double tolerance_;
   std::size_t snapped_ = 0, number_of_cuts_ = 0;
   std::vector<std::array<std::size_t, 2>> meeting_;
