@@ -126,10 +126,10 @@ public:
   bool operator()(const std::array<std::size_t, 4>& cell) const
   {
     const auto at = [&](std::size_t i) -> const typename K::Point_3& { return mesh_.points[cell[i]]; };
-    return forcing_angle(oracle_,
+    return forcing_angle(oracle_, incidence_,
                          {{mesh_.locations[cell[0]], mesh_.locations[cell[1]], mesh_.locations[cell[2]],
                            mesh_.locations[cell[3]]}},
-                         circumcenter_3<K>(at(0), at(1), at(2), at(3)), at(0)) < 180;
+                         {{&at(0), &at(1), &at(2), &at(3)}}, circumcenter_3<K>(at(0), at(1), at(2), at(3))) < 180;
   }
 
 private:

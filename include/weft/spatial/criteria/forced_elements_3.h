@@ -13,6 +13,7 @@
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -58,27 +59,74 @@ bool is_forced(const Restricted& mesh, const typename Restricted::Restricted_fac
                             2 * std::asin(0.5 / largest_ratio));
 }
 
-/// The angle in degrees of the acute edge whose wedge a cell would fill: all its vertices lie on the boundary, and its
-/// circumscribed ball mixes up the sides of the edge. 180 if there is no such edge.
-template <class Oracle, class Point>
-double forcing_angle(const Oracle& oracle, const std::array<Vertex_location_3, 4>& locations, const Point& circumcenter,
-                     const Point& vertex)
+/// The smallest angle in degrees at which a crease that one vertex lies on meets one that another lies on; 180 if it is
+/// 30 or more, from where on refinement ends with good shapes, or if one crease holds both.
+template <class Oracle>
+double angle_between_creases(const Oracle& oracle, const Feature_incidence_3& incidence, const Vertex_location_3& a,
+                             const Vertex_location_3& b)
 {
-  if (!oracle.has_mirror_images()) return 180;
-  for (const Vertex_location_3& at : locations)
-    if (at.dimension > 2) return 180;
-  return oracle.acute_angle_at(circumcenter, std::sqrt(CGAL::to_double(CGAL::squared_distance(circumcenter, vertex))));
+  double smallest = 180;
+  if (a.dimension < 0 || a.dimension > 1 || b.dimension < 0 || b.dimension > 1) return smallest;
+  bool share = false;
+  const auto look = [&](int crease, const Vertex_location_3& other) {
+    const auto holds = [&](int c) {
+      return other.dimension == 1 ? other.index == c : incidence.corner_is_on_crease(other.index, c);
+    };
+    share = share || holds(crease);
+    oracle.visit_creases_at_small_angles(crease, [&](int c, double angle) {
+      if (holds(c) && angle < CGAL_PI / 6) smallest = (std::min)(smallest, angle * 180 / CGAL_PI);
+    });
+  };
+  if (a.dimension == 1)
+    look(a.index, b);
+  else
+    for (const int crease : incidence.creases_of_corner(a.index)) look(crease, b);
+  return share ? 180 : smallest;
 }
 
-/// Whether a cell fills the wedge at an acute edge.
+/// The small angle of the input in degrees that forces the shape of a cell; 180 if there is none. Either its shortest
+/// edge joins two creases that meet at the angle: near where they meet no cell with that edge is better (Miller, Pav
+/// and Walkington, "When and why Delaunay refinement algorithms work", 2005, for edges in the plane). Or it would fill
+/// the wedge at an acute edge: all its vertices lie on the boundary, and its circumscribed ball mixes up the sides of
+/// the edge.
+/// \param points of the cell.
+template <class Oracle, class Point>
+double forcing_angle(const Oracle& oracle, const Feature_incidence_3& incidence,
+                     const std::array<Vertex_location_3, 4>& locations, const std::array<const Point*, 4>& points,
+                     const Point& circumcenter)
+{
+  if (!oracle.has_mirror_images()) return 180;
+  std::array<std::size_t, 2> ends{{0, 1}};
+  double shortest = HUGE_VAL;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      const double d = CGAL::to_double(CGAL::squared_distance(*points[i], *points[j]));
+      if (!(d < shortest)) continue;
+      shortest = d;
+      ends = {{i, j}};
+    }
+  const double angle = angle_between_creases(oracle, incidence, locations[ends[0]], locations[ends[1]]);
+  for (const Vertex_location_3& at : locations)
+    if (at.dimension > 2) return angle;
+  const double radius = std::sqrt(CGAL::to_double(CGAL::squared_distance(circumcenter, *points[0])));
+  return (std::min)(angle, static_cast<double>(oracle.acute_angle_at(circumcenter, radius)));
+}
+
+/// The same of a cell that has its circumcenter.
+template <class Restricted>
+double forcing_angle(const Restricted& mesh, typename Restricted::Cell_handle c)
+{
+  const auto at = [c](int i) { return c->vertex(i)->location(); };
+  const auto point = [c](int i) { return &c->vertex(i)->point(); };
+  return forcing_angle(mesh.oracle(), mesh.incidence(), {{at(0), at(1), at(2), at(3)}},
+                       {{point(0), point(1), point(2), point(3)}}, c->circumcenter());
+}
+
+/// Whether small angles of the input force the shape of a cell.
 template <class Restricted>
 bool is_forced(const Restricted& mesh, typename Restricted::Cell_handle c)
 {
-  if (!mesh.oracle().has_mirror_images()) return false;
-  for (int i = 0; i < 4; ++i)
-    if (c->vertex(i)->location().dimension > 2) return false;
-  const double squared_radius = CGAL::to_double(CGAL::squared_distance(c->circumcenter(), c->vertex(0)->point()));
-  return mesh.oracle().is_at_acute_edge(c->circumcenter(), std::sqrt(squared_radius));
+  return forcing_angle(mesh, c) < 180;
 }
 
 } // namespace weft::internal

@@ -25,6 +25,10 @@
 
 namespace weft::internal {
 
+/// Below this dihedral angle in degrees twins keep sides apart, see Mirror_twins_3.h; at larger ones refinement ends
+/// without, and three such edges at a narrow tip would fill it with images of images.
+inline constexpr double largest_angle_with_twins = 40;
+
 /// The edges of a surface with an acute dihedral angle inside or outside of the domain, creases or not.
 /// \tparam K a CGAL kernel.
 template <class K>
@@ -103,8 +107,7 @@ public:
 
   /// Calls `visit(image)` for the mirror images of a point of the surface in the planes that bisect acute
   /// edges of whose sheets one holds it, as far as they are nearer to it than `spacing`. Of the edges of two patches
-  /// the nearest one counts. Edges from 40 degrees on don't: three of them at a narrow tip would fill it with images of
-  /// images.
+  /// the nearest one counts. Edges from `largest_angle_with_twins` on don't.
   /// \param patch that the point lies on; -1: on a crease or a feature vertex.
   template <class Visit>
   void visit_images(const Point& p, int patch, double spacing, const Visit& visit) const
@@ -121,7 +124,7 @@ public:
       const double height = dot_product(to, edge.normal), depth = dot_product(to, edge.inward);
       const double half = 0.5 * edge.angle, angle = std::atan2(std::abs(height), depth);
       const bool is_on_sheet = angle > 0.5 * half && angle < 1.5 * half;
-      if (edge.angle < largest_mirrored * radians_per_degree && is_on_sheet && 2 * std::abs(height) < spacing &&
+      if (edge.angle < largest_angle_with_twins * radians_per_degree && is_on_sheet && 2 * std::abs(height) < spacing &&
           std::abs(height) > 1e-9 * spacing && (patch < 0 || patch == edge.patches[0] || patch == edge.patches[1]))
         images.push_back({distance, static_cast<std::size_t>(&edge - edges_.data()), mirrored(p, height, edge.normal)});
       return false;
@@ -204,8 +207,6 @@ private:
     const double length = norm(a);
     return length > 0 ? Xyz_3{{a[0] / length, a[1] / length, a[2] / length}} : a;
   }
-
-  static constexpr double largest_mirrored = 40; ///< degrees; at larger angles refinement ends without twins
 
   std::vector<Edge> edges_;
   double largest_reach_ = 0;

@@ -68,14 +68,20 @@ public:
   bool empty() const { return pairs_.empty(); }
 
   /// Calls `visit(image, crease)` for the points of other creases that are as far from a feature vertex as a point of a
-  /// crease that meets them there, and nearer to it than `spacing`.
+  /// crease that meets them there, and nearer to it than `spacing`. Where two creases meet at both ends, the nearer end
+  /// counts.
   /// \param points_of `points_of(crease)` has the points of a crease in order.
   template <class Points_of, class Visit>
   void visit_images(const Point& p, int crease, double spacing, const Points_of& points_of, const Visit& visit) const
   {
     if (pairs_.empty()) return;
-    for (const Pair& pair : pairs_[static_cast<std::size_t>(crease)]) {
+    const auto& pairs = pairs_[static_cast<std::size_t>(crease)];
+    for (const Pair& pair : pairs) {
       const double radius = distance(p, pair.apex);
+      if (std::any_of(pairs.begin(), pairs.end(), [&](const Pair& other) {
+            return other.crease == pair.crease && distance(p, other.apex) < radius;
+          }))
+        continue;
       Point image = p;
       if (!find_on(points_of(pair.crease), pair.from_last, pair.apex, radius, image)) continue;
       const double apart = distance(p, image);

@@ -64,10 +64,7 @@ public:
   {
     const Dihedral_cosines_3 x = cosines_of_cell(c);
     if (!may_be_forced(x)) return x;
-    return relative(x, forcing_angle(mesh_->oracle(),
-                                     {{c->vertex(0)->location(), c->vertex(1)->location(), c->vertex(2)->location(),
-                                       c->vertex(3)->location()}},
-                                     c->circumcenter(), c->vertex(0)->point()));
+    return relative(x, forcing_angle(*mesh_, c));
   }
 
   /// Whether a cell between sheets at a small angle is to stay: none of its vertices may move.
@@ -131,7 +128,9 @@ public:
       Dihedral_cosines_3 x = cosines_of_extreme_dihedrals(p[0], p[1], p[2], p[3]);
       if (sliver_measure(x) <= worst) continue;
       const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
-      if (may_be_forced(x)) x = relative(x, forcing_angle(mesh_->oracle(), locations(facet), o, p[0]));
+      if (may_be_forced(x))
+        x = relative(
+            x, forcing_angle(mesh_->oracle(), mesh_->incidence(), locations(facet), {{&p[0], &p[1], &p[2], &p[3]}}, o));
       if (sliver_measure(x) <= worst || !is_inside(o, facet.first)) continue;
       if (exceeds(x)) return no_good;
     }
@@ -203,6 +202,8 @@ private:
     std::array<Vertex_location_3, 4> result;
     for (int k = 0; k < 4; ++k)
       result[static_cast<std::size_t>(k)] = k == facet.second ? location_ : facet.first->vertex(k)->location();
+    const auto i = static_cast<std::size_t>(facet.second);
+    std::swap(result[(i + 1) % 4], result[(i + 2) % 4]); // in the order of corners()
     return result;
   }
 

@@ -7,6 +7,7 @@
 #define WEFT_SPATIAL_REFINE_ACUTE_REFINEMENT_3_H
 
 #include <weft/spatial/criteria/Badness_measure_3.h>
+#include <weft/spatial/domain/Acute_edges_3.h>
 #include <weft/spatial/refine/Bad_elements_list_3.h>
 #include <weft/spatial/refine/Steiner_batch_3.h>
 
@@ -50,8 +51,9 @@ public:
   bool is_left(const Point& center, double squared_radius)
   {
     const double least = acute_floor_ * measure_.size(center);
-    const bool left =
-        squared_radius < least * least && mesh_.oracle().is_at_acute_edge(center, std::sqrt(squared_radius));
+    if (!(squared_radius < least * least)) return false;
+    const double angle = mesh_.oracle().acute_angle_at(center, std::sqrt(squared_radius));
+    const bool left = angle < 180 && angle >= largest_angle_with_twins; // twins end refinement at others
     left_ += left;
     return left;
   }
