@@ -115,8 +115,10 @@ public:
       if (has_bad_crease_edge(c)) return Refusal_3::crease;
     for (const int id : boundary_vertices(mesh_.new_cells()))
       if (offends({id, -1, -1, -1}, grade(vertex(id)))) return Refusal_3::disk;
+    for (const int record : mesh_.new_facets())
+      if (offends(key(facet(record)), grade_by_own_distance(facet(record)))) return Refusal_3::facet;
     for (const int record : mesh_.new_facets()) // the dearest last
-      if (offends(key(facet(record)), grade_by_distance(facet(record)))) return Refusal_3::facet;
+      if (offends(key(facet(record)), grade_by_height(facet(record)))) return Refusal_3::facet;
     return has_bare_part() ? Refusal_3::bare : Refusal_3::none;
   }
   bool accepts_change() const { return refusal() == Refusal_3::none; }
@@ -125,9 +127,15 @@ public:
   std::vector<Element> new_offenders() const
   {
     std::vector<Element> bad;
-    visit_bad({mesh_.new_cells(), mesh_.new_facets()}, [&](const Element& e, const Grade& grade) {
-      if (offends(e, grade)) bad.push_back(e);
-    });
+    for (const int record : mesh_.new_facets())
+      if (mesh_.facets()[static_cast<std::size_t>(record)].cell != Cell_handle() && offends(facet(record)))
+        bad.push_back(key(facet(record)));
+    for (const Cell_handle c : mesh_.new_cells())
+      if (c->subdomain() != 0 && offends(key(c), grade(c))) bad.push_back(key(c));
+    for (const Crease_edge& e : mesh_.creases().edges())
+      if (offends(key(e), grade(e))) bad.push_back(key(e));
+    for (const int id : boundary_vertices(mesh_.new_cells()))
+      if (offends({id, -1, -1, -1}, grade(vertex(id)))) bad.push_back({id, -1, -1, -1});
     return bad;
   }
 
@@ -172,7 +180,7 @@ public:
     if (e[2] >= 0) {
       if (!tr.is_facet(vertex(e[0]), vertex(e[1]), vertex(e[2]), c, i, j, k)) return false;
       const Facet* f = mesh_.facet(c, 6 - i - j - k);
-      return f && offends(e, grade(*f));
+      return f && offends(*f);
     }
     if (e[1] >= 0) {
       const Crease_edge* edge = mesh_.creases().edge(vertex(e[0]), vertex(e[1]));
@@ -219,20 +227,10 @@ private:
 
   void tolerate(const Part& part)
   {
-    visit_bad(part, [this](const Element& e, const Grade& grade) {
+    const auto look = [this](const Element& e, const Grade& grade) {
       if (offends(e, grade)) tolerated_[e] = grade;
-    });
-  }
-
-  /// Calls `visit(element, grade)` for the bad elements of a part, and for all bad crease edges.
-  template <class Visit>
-  void visit_bad(const Part& part, const Visit& visit) const
-  {
-    const auto look = [&](const Element& e, const Grade& grade) {
-      if (grade.is_bad()) visit(e, grade);
     };
-    for (const int record : part.facets)
-      if (facet(record).cell != Cell_handle()) look(key(facet(record)), grade(facet(record)));
+    for (const int record : part.facets) look(key(facet(record)), grade(facet(record)));
     for (const Cell_handle c : part.cells)
       if (c->subdomain() != 0) look(key(c), grade(c));
     for (const Crease_edge& e : mesh_.creases().edges()) look(key(e), grade(e));
@@ -244,6 +242,13 @@ private:
     if (!grade.is_bad()) return false;
     const auto found = tolerated_.find(e);
     return found == tolerated_.end() || grade.exceeds(found->second);
+  }
+
+  /// The dearest is asked last.
+  bool offends(const Facet& f) const
+  {
+    const Element e = key(f);
+    return offends(e, grade_by_criteria(f)) || offends(e, grade_by_own_distance(f)) || offends(e, grade_by_height(f));
   }
 
   bool has_bare_part() const
@@ -261,10 +266,10 @@ private:
   Grade grade(const Facet& f) const
   {
     Grade grade = grade_by_criteria(f);
-    const Grade distance = grade_by_distance(f);
-    grade.depth = distance.depth;
-    grade.height = distance.height;
-    grade.turn = distance.turn;
+    const Grade own = grade_by_own_distance(f);
+    grade.depth = own.depth;
+    grade.turn = own.turn;
+    grade.height = grade_by_height(f).height;
     return grade;
   }
 
@@ -275,11 +280,10 @@ private:
     return grade;
   }
 
-  Grade grade_by_distance(const Facet& f) const
+  /// What hangs on the facets around it, too.
+  Grade grade_by_height(const Facet& f) const
   {
-    Grade grade = grade_by_own_distance(f);
-    grade.height = deviation_.height_beyond(bound_at(f.steiner).height, f);
-    return grade;
+    return {0, 0, deviation_.height_beyond(bound_at(f.steiner).height, f), 0, 0};
   }
 
   /// What doesn't hang on the facets around it. How deep a facet is, and how its corners look, is its own affair.
