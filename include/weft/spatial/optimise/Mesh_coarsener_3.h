@@ -38,7 +38,11 @@ public:
   using Vertex_handle = typename Restricted::Vertex_handle;
 
   Mesh_coarsener_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Coarsen_options_3& options)
-      : mesh_(mesh), guard_(guard), options_(options), is_promising_(mesh.vertices().size(), true), vacant_(mesh),
+      : mesh_(mesh),
+        guard_(guard),
+        options_(options),
+        is_promising_(mesh.vertices().size(), true),
+        vacant_(mesh),
         preview_(mesh)
   {}
 
@@ -67,10 +71,16 @@ private:
       if (v != Vertex_handle() && !mesh_.is_fixed(v) && is_promising_[static_cast<std::size_t>(v->id())])
         order.emplace_back(shortest_edge(v), v->id());
     std::sort(order.begin(), order.end());
+    const std::size_t window = (std::max)(least_window, mesh_.vertices().size() / 4);
+    std::size_t tried = report_.tried, removed = report_.removed; // when the window began
     for (std::size_t i = 0; i < order.size(); ++i) {
       goes_on_ = timer_.seconds() < options_.time_limit && (i % 64 != 0 || !options_.go_on || options_.go_on());
       if (!goes_on_) return;
       report_.removed += remove(order[i].second);
+      if (report_.tried < tried + window) continue;
+      if (report_.removed < removed + window / part_in_window) return; // the others have longer edges, and few are left
+      tried = report_.tried;
+      removed = report_.removed;
     }
   }
 
@@ -192,6 +202,9 @@ private:
     return std::all_of(filling.begin(), filling.end(),
                        [&](Cell_handle c) { return c->subdomain() == 0 || cosines_of_cell(c).smallest <= limit; });
   }
+
+  static constexpr std::size_t least_window = 400;   ///< trials
+  static constexpr std::size_t part_in_window = 100; ///< a pass ends where fewer than one in so many succeed
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted>& guard_;
