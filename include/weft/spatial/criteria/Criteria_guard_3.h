@@ -91,6 +91,8 @@ public:
 
   const Restricted& mesh() const { return mesh_; }
   const Badness_measure_3<Restricted>& measure() const { return measure_; }
+  /// How many threads may ask at once, about cells and facets that aren't in the mesh.
+  int threads() const { return threads_; }
 
   /// Before anything is classified: whether cells would be good if they belong to the domain, which their circumcenters
   /// decide. Sets those.

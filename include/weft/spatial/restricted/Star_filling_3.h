@@ -67,6 +67,9 @@ public:
   /// The cells found, numbered by `id()`. They are valid until the next call of `find()`.
   const std::vector<Cell_handle>& cells() const { return cells_; }
 
+  /// The neighbours of the vertex.
+  const std::vector<Vertex_handle>& neighbours() const { return neighbours_; }
+
   /// Puts the cells in the place of the vertex.
   /// \param star as in `find()`.
   /// \param made gets the cells in the triangulation, in the order of `cells()`.
