@@ -140,6 +140,17 @@ struct Criteria_3
   std::function<double(const Facet_view_3<K>&)> facet_demand;
   std::function<double(const Cell_view_3<K>&)> cell_demand;
 
+  /// Whether some criterion is a function of the user.
+  bool has_functions() const
+  {
+    const auto varies = [](const Length_field_3<K>& field) { return !field.is_constant(); };
+    bool found = varies(size) || varies(approximation) || varies(deviation) || varies(crease_size) || facet_demand ||
+                 cell_demand;
+    for (const auto& own : subdomains) found = found || varies(own.second.size);
+    for (const auto& own : patches) found = found || varies(own.second.size) || varies(own.second.approximation);
+    return found;
+  }
+
   /// The approximation asked for on one patch alone; null if none is.
   const Length_field_3<K>* own_approximation(int patch) const
   {

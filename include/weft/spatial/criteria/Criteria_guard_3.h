@@ -8,6 +8,7 @@
 #ifndef WEFT_SPATIAL_CRITERIA_CRITERIA_GUARD_3_H
 #define WEFT_SPATIAL_CRITERIA_CRITERIA_GUARD_3_H
 
+#include <weft/internal/parallel_for.h>
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/Deviation_3.h>
@@ -22,8 +23,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -55,15 +58,26 @@ public:
 
   /// Elements that are bad now are tolerated from now on, as long as they don't get worse. Linear in the size of the
   /// mesh.
-  Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
-      : mesh_(mesh), measure_(mesh, criteria, 1), deviation_(mesh), allowed_(criteria.deviation)
+  /// \param threads to use where many elements are looked at; what they find is the same for any number. Criteria of
+  ///   the user are asked by one.
+  Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria, int threads = 1)
+      : mesh_(mesh),
+        measure_(mesh, criteria, 1),
+        deviation_(mesh),
+        allowed_(criteria.deviation),
+        threads_(Restricted::Oracle::is_thread_safe && !criteria.has_functions() ? threads : 1)
   {
     const Part all = everything();
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
     const double rounding = 1e-6 * std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
     farthest_ = {rounding * rounding, rounding * rounding}; // all that is seen on flat patches
     // Most facets needn't be measured, once a far one is known.
-    for (const int record : all.facets) farthest_.raise_to(deviation_.beyond(farthest_, facet(record)));
+    for_blocks(
+        all.facets.size(), farthest_,
+        [&](std::size_t k, std::uint64_t era, Squared_deviation_3& farthest) {
+          farthest.raise_to(deviation_.beyond(farthest, facet(all.facets[k]), era));
+        },
+        [this](const Squared_deviation_3& farthest) { farthest_.raise_to(farthest); });
     farthest_.depth *= closer * closer;
     farthest_of_crease_ = rounding * rounding;
     for (const Crease_edge& e : mesh.creases().edges())
@@ -77,6 +91,8 @@ public:
 
   const Restricted& mesh() const { return mesh_; }
   const Badness_measure_3<Restricted>& measure() const { return measure_; }
+  /// How many threads may ask at once, about cells and facets that aren't in the mesh.
+  int threads() const { return threads_; }
 
   /// Before anything is classified: whether cells would be good if they belong to the domain, which their circumcenters
   /// decide. Sets those.
@@ -115,8 +131,11 @@ public:
       if (has_bad_crease_edge(c)) return Refusal_3::crease;
     for (const int id : boundary_vertices(mesh_.new_cells()))
       if (offends({id, -1, -1, -1}, grade(vertex(id)))) return Refusal_3::disk;
+    for (const int record : mesh_.new_facets())
+      if (offends(key(facet(record)), grade_by_own_distance(facet(record)))) return Refusal_3::facet;
+    const std::uint64_t era = present_era();
     for (const int record : mesh_.new_facets()) // the dearest last
-      if (offends(key(facet(record)), grade_by_distance(facet(record)))) return Refusal_3::facet;
+      if (offends(key(facet(record)), grade_by_height(facet(record), era))) return Refusal_3::facet;
     return has_bare_part() ? Refusal_3::bare : Refusal_3::none;
   }
   bool accepts_change() const { return refusal() == Refusal_3::none; }
@@ -125,9 +144,21 @@ public:
   std::vector<Element> new_offenders() const
   {
     std::vector<Element> bad;
-    visit_bad({mesh_.new_cells(), mesh_.new_facets()}, [&](const Element& e, const Grade& grade) {
-      if (offends(e, grade)) bad.push_back(e);
-    });
+    const auto collect = [&bad](const std::vector<Element>& some) { bad.insert(bad.end(), some.begin(), some.end()); };
+    const std::vector<int>& facets = mesh_.new_facets();
+    for_blocks(
+        facets.size(), std::vector<Element>(),
+        [&](std::size_t k, std::uint64_t era, std::vector<Element>& some) {
+          const Facet& f = facet(facets[k]);
+          if (f.cell != Cell_handle() && offends(f, era)) some.push_back(key(f));
+        },
+        collect);
+    for (const Cell_handle c : mesh_.new_cells())
+      if (c->subdomain() != 0 && offends(key(c), grade(c))) bad.push_back(key(c));
+    for (const Crease_edge& e : mesh_.creases().edges())
+      if (offends(key(e), grade(e))) bad.push_back(key(e));
+    for (const int id : boundary_vertices(mesh_.new_cells()))
+      if (offends({id, -1, -1, -1}, grade(vertex(id)))) bad.push_back({id, -1, -1, -1});
     return bad;
   }
 
@@ -172,7 +203,7 @@ public:
     if (e[2] >= 0) {
       if (!tr.is_facet(vertex(e[0]), vertex(e[1]), vertex(e[2]), c, i, j, k)) return false;
       const Facet* f = mesh_.facet(c, 6 - i - j - k);
-      return f && offends(e, grade(*f));
+      return f && offends(*f, present_era());
     }
     if (e[1] >= 0) {
       const Crease_edge* edge = mesh_.creases().edge(vertex(e[0]), vertex(e[1]));
@@ -205,6 +236,31 @@ private:
     }
   };
 
+  /// Calls `look(k, era, result)` for k in [0, n), block by block, each with a result and an era of its own, then
+  /// `take(result)` in order of the blocks, which are the same for any number of threads.
+  template <class Result, class Look, class Take>
+  void for_blocks(std::size_t n, const Result& initial, const Look& look, const Take& take) const
+  {
+    const std::size_t blocks = (n + block_size - 1) / block_size;
+    std::vector<Result> results(blocks, initial);
+    parallel_for(
+        blocks, threads_,
+        [&](std::size_t b) {
+          const std::uint64_t era = Deviation_3<Restricted>::new_era();
+          for (std::size_t k = b * block_size; k < (std::min)(n, (b + 1) * block_size); ++k) look(k, era, results[b]);
+        },
+        1);
+    for (const Result& result : results) take(result);
+  }
+
+  /// For questions by one thread about the mesh as it is.
+  std::uint64_t present_era() const
+  {
+    if (version_ != mesh_.version()) era_ = Deviation_3<Restricted>::new_era();
+    version_ = mesh_.version();
+    return era_;
+  }
+
   Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
   const Facet& facet(int record) const { return mesh_.facets()[static_cast<std::size_t>(record)]; }
 
@@ -219,20 +275,19 @@ private:
 
   void tolerate(const Part& part)
   {
-    visit_bad(part, [this](const Element& e, const Grade& grade) {
+    const auto look = [this](const Element& e, const Grade& grade) {
       if (offends(e, grade)) tolerated_[e] = grade;
-    });
-  }
-
-  /// Calls `visit(element, grade)` for the bad elements of a part, and for all bad crease edges.
-  template <class Visit>
-  void visit_bad(const Part& part, const Visit& visit) const
-  {
-    const auto look = [&](const Element& e, const Grade& grade) {
-      if (grade.is_bad()) visit(e, grade);
     };
-    for (const int record : part.facets)
-      if (facet(record).cell != Cell_handle()) look(key(facet(record)), grade(facet(record)));
+    using Grades = std::vector<std::pair<Element, Grade>>;
+    for_blocks(
+        part.facets.size(), Grades(),
+        [&](std::size_t k, std::uint64_t era, Grades& bad) {
+          const Grade g = grade(facet(part.facets[k]), era);
+          if (g.is_bad()) bad.emplace_back(key(facet(part.facets[k])), g);
+        },
+        [&look](const Grades& bad) {
+          for (const auto& [element, grade] : bad) look(element, grade);
+        });
     for (const Cell_handle c : part.cells)
       if (c->subdomain() != 0) look(key(c), grade(c));
     for (const Crease_edge& e : mesh_.creases().edges()) look(key(e), grade(e));
@@ -244,6 +299,14 @@ private:
     if (!grade.is_bad()) return false;
     const auto found = tolerated_.find(e);
     return found == tolerated_.end() || grade.exceeds(found->second);
+  }
+
+  /// The dearest is asked last.
+  bool offends(const Facet& f, std::uint64_t era) const
+  {
+    const Element e = key(f);
+    return offends(e, grade_by_criteria(f)) || offends(e, grade_by_own_distance(f)) ||
+           offends(e, grade_by_height(f, era));
   }
 
   bool has_bare_part() const
@@ -258,13 +321,13 @@ private:
   Grade grade(Cell_handle c) const { return {ratio(measure_.cell(c)), 0, 0, 0, 0}; }
   Grade unlabelled_grade(Cell_handle c) const { return {ratio(measure_.unlabelled_cell(c)), 0, 0, 0, 0}; }
 
-  Grade grade(const Facet& f) const
+  Grade grade(const Facet& f, std::uint64_t era) const
   {
     Grade grade = grade_by_criteria(f);
-    const Grade distance = grade_by_distance(f);
-    grade.depth = distance.depth;
-    grade.height = distance.height;
-    grade.turn = distance.turn;
+    const Grade own = grade_by_own_distance(f);
+    grade.depth = own.depth;
+    grade.turn = own.turn;
+    grade.height = grade_by_height(f, era).height;
     return grade;
   }
 
@@ -275,26 +338,25 @@ private:
     return grade;
   }
 
-  Grade grade_by_distance(const Facet& f) const
+  /// What hangs on the facets around it, too.
+  Grade grade_by_height(const Facet& f, std::uint64_t era) const
   {
-    Grade grade = grade_by_own_distance(f);
-    grade.height = deviation_.height_beyond(bound_at(f.steiner).height, f);
-    return grade;
+    return {0, 0, deviation_.height_beyond(bound_at(f.steiner).height, f, era), 0, 0};
   }
 
   /// What doesn't hang on the facets around it. How deep a facet is, and how its corners look, is its own affair.
   Grade grade_by_own_distance(const Facet& f) const
   {
     const bool may_be_known = !allowed_ && mesh_.is_boundary(f);
-    const Facet_memory_3::Key key = may_be_known ? Facet_memory_3::key(f) : Facet_memory_3::Key();
-    const bool is_known = may_be_known && known_to_be_good_.has(key);
+    const Facet_memory_3::Key key = may_be_known ? Facet_memory_3::key(f, name_) : Facet_memory_3::Key();
+    const bool is_known = may_be_known && Facet_memory_3::of_thread().has(key);
     double cosine =
         least_cosine_to_surface_of(mesh_, f, is_known ? Facet_points_3::steiner_point : Facet_points_3::all);
     const double depth = is_known ? 0 : deviation_.depth_beyond(bound_at(f.steiner).depth, f);
     if (cosine < least_cosine_to_surface) {
       if (is_beside_sharp_edge(mesh_.oracle(), f)) cosine = 1;
     } else if (may_be_known && !is_known && depth == 0) {
-      known_to_be_good_.add(key);
+      Facet_memory_3::of_thread().add(key);
     }
     return {0, depth, 0, 0, cosine < least_cosine_to_surface ? 1 - cosine : 0};
   }
@@ -362,12 +424,16 @@ private:
   std::vector<int> patches_;         ///< that have facets
   std::vector<std::size_t> creases_; ///< that have edges
   Deviation_3<Restricted> deviation_;
-  mutable Facet_memory_3 known_to_be_good_; ///< by depth and at its corners
+  std::uint64_t name_ = Deviation_3<Restricted>::new_era(); ///< in the memory of facets that are good by themselves
+  mutable std::uint64_t era_ = 0;                           ///< of the mesh in this version, for single changes
+  mutable int version_ = -1;
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
   Squared_deviation_3 farthest_;   ///< that facets may be
   double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
+  int threads_;
   /// For what lies between the samples of facets.
   static constexpr double closer = 0.85;
+  static constexpr std::size_t block_size = 128; ///< facets that are looked at one after the other
 };
 
 } // namespace weft::internal

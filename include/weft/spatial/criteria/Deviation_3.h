@@ -13,6 +13,7 @@
 #include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -52,19 +53,28 @@ public:
   /// \param mesh has to live as long as this object.
   explicit Deviation_3(const Restricted& mesh) : mesh_(&mesh) {}
 
-  Squared_deviation_3 of(const Facet& f) const { return {depth(f), height(f, 0)}; }
+  Squared_deviation_3 of(const Facet& f) const { return {depth(f), height(f, 0, new_era())}; }
 
-  /// The same but 0 where it isn't beyond a bound, which is much cheaper to tell.
-  Squared_deviation_3 beyond(const Squared_deviation_3& bound, const Facet& f) const
+  /// The same but 0 where they aren't beyond a bound, which is much cheaper to tell.
+  /// \param era see `new_era()`.
+  Squared_deviation_3 beyond(const Squared_deviation_3& bound, const Facet& f, std::uint64_t era) const
   {
-    return {depth_beyond(bound.depth, f), height_beyond(bound.height, f)};
+    return {depth_beyond(bound.depth, f), height_beyond(bound.height, f, era)};
   }
   double depth_beyond(double bound, const Facet& f) const
   {
     const bool is_deep = !for_each_sample(f, [&](const Point& p) { return mesh_->oracle().is_within(p, bound); });
     return is_deep ? depth(f) : 0;
   }
-  double height_beyond(double bound, const Facet& f) const { return height(f, bound); }
+  double height_beyond(double bound, const Facet& f, std::uint64_t era) const { return height(f, bound, era); }
+
+  /// A number that there was never before. What is found about salient points is known for later facets that come with
+  /// the same number, which one thread asks for, one after the other, while the mesh stays as it is.
+  static std::uint64_t new_era()
+  {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+  }
 
   /// Squared distance of the farthest corner of a crease from the edge that stands for it there: those corners to both
   /// sides of its Steiner point whose projections lie between the ends of the edge.
@@ -115,14 +125,14 @@ private:
   /// The other way round: of the salient points of the surface near the facet and of some points of its ridges, the
   /// farthest from the facet and from those around it; 0 if that isn't beyond the bound. With ends of attracting folds
   /// alone, whole runs raise the distance unseen.
-  double height(const Facet& f, double bound) const
+  double height(const Facet& f, double bound, std::uint64_t era) const
   {
     double highest = bound;
     const Measured_triangle_3 triangle = measured(f);
     thread_local std::vector<Measured_triangle_3> around;
     around.clear();
     const auto look = [&](const Point& p) {
-      Near_point& known = what_is_known(p);
+      Near_point& known = what_is_known(p, era);
       if (known.bound <= highest) return;
       if (const double own = triangle.squared_distance(xyz(p)); own > highest) {
         if (around.empty())
@@ -156,16 +166,17 @@ private:
   struct Near_point
   {
     Point point;
-    int version = -1; ///< of the mesh then
-    double bound;     ///< squared, within which a facet was found; else infinite
-    double around;    ///< squared distance from all facets around; negative unless measured
+    std::uint64_t era = 0;
+    double bound;  ///< squared, within which a facet was found; else infinite
+    double around; ///< squared distance from all facets around; negative unless measured
   };
 
-  /// Of a point: what was found in this version of the mesh.
-  Near_point& what_is_known(const Point& p) const
+  /// Of a point: what was found in this era.
+  static Near_point& what_is_known(const Point& p, std::uint64_t era)
   {
-    Near_point& known = known_[slot(p)];
-    if (known.version != mesh_->version() || known.point != p) known = {p, mesh_->version(), HUGE_VAL, -1};
+    thread_local std::vector<Near_point> all(std::size_t(1) << known_bits); // by a hash of the point
+    Near_point& known = all[slot(p)];
+    if (known.era != era || known.point != p) known = {p, era, HUGE_VAL, -1};
     return known;
   }
 
@@ -228,9 +239,8 @@ private:
     const Xyz_3 x = xyz(p);
     double nearest = HUGE_VAL;
     const auto look = [&](Vertex_handle v) {
-      mesh_->visit_facets_at(v, [&](const Facet& g) {
-        nearest = (std::min)(nearest, measured(g).squared_distance(x));
-      });
+      mesh_->visit_facets_at(v,
+                             [&](const Facet& g) { nearest = (std::min)(nearest, measured(g).squared_distance(x)); });
       return nearest <= bound;
     };
     const Cell_handle c = tr.locate(p, near);
@@ -240,13 +250,29 @@ private:
       if (squared(i) < squared(first)) first = i;
     for (int i = 0; i < 4; ++i)
       if (look(c->vertex((first + i) & 3))) return nearest;
-    const Vertex_handle v = tr.nearest_vertex(p, c);
+    const Vertex_handle v = nearest_vertex(p, c->vertex(first), vertices);
     if (!c->has_vertex(v) && look(v)) return nearest;
-    vertices.clear();
-    tr.finite_adjacent_vertices(v, std::back_inserter(vertices));
     for (const Vertex_handle w : vertices)
       if (!c->has_vertex(w) && look(w)) return nearest;
     return nearest;
+  }
+
+  /// The vertex nearest to a point, looked for from another, and its neighbours. CGAL's leaves marks in cells, which
+  /// other threads would see.
+  Vertex_handle nearest_vertex(const Point& p, Vertex_handle v, std::vector<Vertex_handle>& neighbours) const
+  {
+    const auto& tr = mesh_->triangulation();
+    double least = CGAL::to_double(CGAL::squared_distance(p, v->point()));
+    for (;;) {
+      neighbours.clear();
+      tr.adjacent_vertices_threadsafe(v, std::back_inserter(neighbours));
+      neighbours.erase(std::remove(neighbours.begin(), neighbours.end(), tr.infinite_vertex()), neighbours.end());
+      Vertex_handle nearer = v;
+      for (const Vertex_handle w : neighbours)
+        if (const double d = CGAL::to_double(CGAL::squared_distance(p, w->point())); d < least) least = d, nearer = w;
+      if (nearer == v) return v;
+      v = nearer;
+    }
   }
 
   /// Barycentric coordinates. Fewer samples let smoothing raise the distance unseen.
@@ -259,7 +285,6 @@ private:
 
   const Restricted* mesh_;
   static constexpr unsigned known_bits = 13;
-  mutable std::vector<Near_point> known_{std::size_t(1) << known_bits}; ///< by a hash of the point
 };
 
 } // namespace weft::internal

@@ -27,19 +27,28 @@ public:
     std::array<Xyz_3, 3> corners; ///< in order
     int patch = -1;
     int inside = 0; ///< the subdomain that the facet looks out of
+    std::uint64_t owner = 0;
 
     bool operator==(const Key& other) const
     {
-      return corners == other.corners && patch == other.patch && inside == other.inside;
+      return corners == other.corners && patch == other.patch && inside == other.inside && owner == other.owner;
     }
   };
 
+  /// That of the thread that asks.
+  static Facet_memory_3& of_thread()
+  {
+    thread_local Facet_memory_3 memory;
+    return memory;
+  }
+
   /// Of a restricted facet with different subdomains on both sides.
+  /// \param owner a number of whoever finds facets to be good.
   template <class Facet>
-  static Key key(const Facet& f)
+  static Key key(const Facet& f, std::uint64_t owner)
   {
     const auto at = [&](int i) { return xyz(f.cell->vertex((f.index + i) & 3)->point()); };
-    Key key{{{at(1), at(2), at(3)}}, f.patch, 0};
+    Key key{{{at(1), at(2), at(3)}}, f.patch, 0, owner};
     auto& [a, b, c] = key.corners;
     bool is_turned = (f.index & 1) == 0; // the other corner lies on the other side of an odd permutation
     const auto order = [&is_turned](Xyz_3& p, Xyz_3& q) {

@@ -6,6 +6,7 @@
 #define WEFT_SPATIAL_OPTIMISE_MESH_COARSENER_3_H
 
 #include <weft/internal/boxes/nearest_point_3.h>
+#include <weft/internal/parallel_for.h>
 #include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -38,7 +40,11 @@ public:
   using Vertex_handle = typename Restricted::Vertex_handle;
 
   Mesh_coarsener_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Coarsen_options_3& options)
-      : mesh_(mesh), guard_(guard), options_(options), is_promising_(mesh.vertices().size(), true), vacant_(mesh),
+      : mesh_(mesh),
+        guard_(guard),
+        options_(options),
+        is_promising_(mesh.vertices().size(), true),
+        vacant_(mesh),
         preview_(mesh)
   {}
 
@@ -58,6 +64,8 @@ public:
   }
 
 private:
+  using Preview = Removal_preview_3<Restricted>;
+
   void run_pass()
   {
     ++report_.passes;
@@ -67,10 +75,17 @@ private:
       if (v != Vertex_handle() && !mesh_.is_fixed(v) && is_promising_[static_cast<std::size_t>(v->id())])
         order.emplace_back(shortest_edge(v), v->id());
     std::sort(order.begin(), order.end());
+    const std::size_t window = (std::max)(least_window, mesh_.vertices().size() / 4);
+    std::size_t tried = report_.tried, removed = report_.removed; // when the window began
     for (std::size_t i = 0; i < order.size(); ++i) {
+      if (may_look_ahead() && i % look_ahead == 0) judge_ahead(order, i);
       goes_on_ = timer_.seconds() < options_.time_limit && (i % 64 != 0 || !options_.go_on || options_.go_on());
       if (!goes_on_) return;
-      report_.removed += remove(order[i].second);
+      report_.removed += remove(order[i].second, i % look_ahead);
+      if (report_.tried < tried + window) continue;
+      if (report_.removed < removed + window / part_in_window) return; // the others have longer edges, and few are left
+      tried = report_.tried;
+      removed = report_.removed;
     }
   }
 
@@ -99,16 +114,90 @@ private:
     return shortest;
   }
 
+  /// What is known of a vertex without taking it away.
+  enum class Verdict
+  {
+    needed,  ///< by the surface
+    refused, ///< by the guard
+    open
+  };
+
+  /// A verdict of a mesh in which nothing was changed yet around the vertex.
+  struct Early_verdict
+  {
+    Verdict verdict = Verdict::open;
+    bool is_known = false;
+    std::vector<int> neighbours; ///< ids
+    Oracle_counts_3 counts;
+  };
+
+  /// Several threads judge vertices of the mesh as it is, some of them one after the other. What they find is what they
+  /// would find when it is the turn of the vertex, unless something has changed around it.
+  bool may_look_ahead() const { return guard_.threads() > 1 && bound_ >= 1; }
+
+  void judge_ahead(const std::vector<std::pair<double, int>>& order, std::size_t first)
+  {
+    const std::size_t n = (std::min)(look_ahead, order.size() - first), part = look_ahead / parts;
+    early_.resize(look_ahead);
+    while (previews_.size() < parts) previews_.emplace_back(mesh_);
+    early_version_ = mesh_.version();
+    parallel_for(
+        parts, guard_.threads(),
+        [&](std::size_t p) {
+          for (std::size_t k = p * part; k < (std::min)(n, (p + 1) * part); ++k) {
+            const Vertex_handle v = mesh_.vertices()[static_cast<std::size_t>(order[first + k].second)];
+            early_[k] = judged(v, previews_[p], previews_[p].look_without_marks(v));
+          }
+        },
+        1);
+  }
+
+  Early_verdict judged(Vertex_handle v, Preview& preview, bool is_seen) const
+  {
+    Early_verdict result;
+    result.is_known = is_seen;
+    if (!is_seen) return result;
+    for (const Vertex_handle w : preview.neighbours())
+      if (w->id() >= 0) result.neighbours.push_back(w->id());
+    const Oracle_counts_3 before = preview.counts();
+    if (is_needed(v))
+      result.verdict = Verdict::needed;
+    else if (!may_be_left_out(v, preview))
+      result.verdict = Verdict::refused;
+    result.counts = preview.counts();
+    result.counts.segments -= before.segments;
+    result.counts.locations -= before.locations;
+    result.counts.skipped -= before.skipped;
+    return result;
+  }
+
+  /// Whether nothing around the vertex has changed since.
+  bool holds(const Early_verdict& early) const
+  {
+    return early.is_known && std::all_of(early.neighbours.begin(), early.neighbours.end(), [this](int id) {
+             const Vertex_handle w = mesh_.vertices()[static_cast<std::size_t>(id)];
+             return w != Vertex_handle() && mesh_.changed_at(w) < early_version_;
+           });
+  }
+
+  Verdict verdict(Vertex_handle v, std::size_t ahead)
+  {
+    if (may_look_ahead() && holds(early_[ahead])) {
+      mesh_.add_counts(early_[ahead].counts);
+      return early_[ahead].verdict;
+    }
+    if (is_needed(v)) return Verdict::needed;
+    return preview_.look_without(v) && !may_be_left_out(v, preview_) ? Verdict::refused : Verdict::open;
+  }
+
   /// Takes a vertex away for good if nothing needs it.
-  bool remove(int id)
+  /// \param ahead its place among the early verdicts.
+  bool remove(int id, std::size_t ahead)
   {
     const Vertex_handle v = mesh_.vertices()[static_cast<std::size_t>(id)];
-    if (is_needed(v)) {
-      is_promising_[static_cast<std::size_t>(id)] = false;
-      return false;
-    }
-    ++report_.tried;
-    if (preview_.look_without(v) && !may_be_left_out(v)) {
+    const Verdict early = verdict(v, ahead);
+    report_.tried += early != Verdict::needed;
+    if (early != Verdict::open) {
       is_promising_[static_cast<std::size_t>(id)] = false;
       return false;
     }
@@ -128,30 +217,29 @@ private:
   }
 
   /// Whether nothing that can be seen without changing the mesh speaks against it.
-  bool may_be_left_out(Vertex_handle v)
+  bool may_be_left_out(Vertex_handle v, Preview& preview) const
   {
-    if (!guard_.may_accept(preview_.cells())) return false;
-    preview_.classify();
-    return keeps_angles(preview_.cells(), worst_allowed(v)) && guard_.may_accept(preview_.cells(), preview_.facets());
+    if (!guard_.may_accept(preview.cells())) return false;
+    preview.classify();
+    return keeps_angles(preview.cells(), worst_allowed(v)) && guard_.may_accept(preview.cells(), preview.facets());
   }
 
   /// Whether the surface at a vertex on a patch is farther from every triangle between its neighbours there than facets
   /// may be, and a little more: the facets that would fill its place are some of those triangles. That spares trials,
   /// and leaves few vertices that could be taken away all the same.
-  bool is_needed(Vertex_handle v)
+  bool is_needed(Vertex_handle v) const
   {
     if (v->location().dimension != 2) return false;
     const double bound = Approximation_multiples::needed_vertex * guard_.measure().approximation(v->point());
     if (bound == 0) return false;
-    neighbours_.clear();
-    mesh_.visit_facets_at(v, [this, v](const typename Restricted::Restricted_facet& f) {
+    thread_local std::vector<Vertex_handle> n;
+    n.clear();
+    mesh_.visit_facets_at(v, [v](const typename Restricted::Restricted_facet& f) {
       for (int i = 1; i < 4; ++i)
-        if (f.cell->vertex((f.index + i) & 3) != v) neighbours_.push_back(f.cell->vertex((f.index + i) & 3));
+        if (f.cell->vertex((f.index + i) & 3) != v) n.push_back(f.cell->vertex((f.index + i) & 3));
     });
-    std::sort(neighbours_.begin(), neighbours_.end(),
-              [](Vertex_handle a, Vertex_handle b) { return a->id() < b->id(); });
-    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
-    const auto& n = neighbours_;
+    std::sort(n.begin(), n.end(), [](Vertex_handle a, Vertex_handle b) { return a->id() < b->id(); });
+    n.erase(std::unique(n.begin(), n.end()), n.end());
     for (std::size_t i = 2; i < n.size(); ++i)
       for (std::size_t j = 1; j < i; ++j)
         for (std::size_t k = 0; k < j; ++k) {
@@ -176,13 +264,13 @@ private:
   }
 
   /// Cosine of the smallest dihedral angle that may be made: the bound, or that of the cells around a vertex.
-  double worst_allowed(Vertex_handle v)
+  double worst_allowed(Vertex_handle v) const
   {
     if (bound_ >= 1) return 1;
-    star_.clear();
-    mesh_.triangulation().incident_cells(v, std::back_inserter(star_));
+    std::vector<Cell_handle> star;
+    mesh_.triangulation().incident_cells(v, std::back_inserter(star));
     double worst = bound_;
-    for (const Cell_handle c : star_)
+    for (const Cell_handle c : star)
       if (c->subdomain() != 0) worst = (std::max)(worst, cosines_of_cell(c).smallest);
     return worst;
   }
@@ -193,6 +281,10 @@ private:
                        [&](Cell_handle c) { return c->subdomain() == 0 || cosines_of_cell(c).smallest <= limit; });
   }
 
+  static constexpr std::size_t look_ahead = 128, parts = 8; ///< early verdicts, and how many threads may share them
+  static constexpr std::size_t least_window = 400;          ///< trials
+  static constexpr std::size_t part_in_window = 100;        ///< a pass ends where fewer than one in so many succeed
+
   Restricted& mesh_;
   Criteria_guard_3<Restricted>& guard_;
   const Coarsen_options_3& options_;
@@ -200,8 +292,10 @@ private:
   bool goes_on_ = true;
   std::vector<char> is_promising_; ///< by id
   Vacant_numbers_3<Restricted> vacant_;
-  Removal_preview_3<Restricted> preview_;
-  std::vector<Cell_handle> star_;
+  Preview preview_;
+  std::deque<Preview> previews_;     ///< for early verdicts
+  std::vector<Early_verdict> early_; ///< of the vertices whose turn comes next
+  int early_version_ = 0;            ///< of the mesh then
   std::vector<Vertex_handle> neighbours_;
   Timer timer_;
   Coarsen_report_3 report_;

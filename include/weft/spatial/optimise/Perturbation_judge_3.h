@@ -220,7 +220,8 @@ private:
     bool inside, labelled; ///< the oracle is asked when it matters
   };
 
-  /// Whether the circumcenter of a cell beside a cell of the mesh lies inside: from that of the other, if it is labelled.
+  /// Whether the circumcenter of a cell beside a cell of the mesh lies inside: from that of the other, if it is
+  /// labelled.
   bool is_inside(const Point& p, Cell_handle beside) const
   {
     if (Restricted::Oracle::labels_first || !beside->is_classified() || Restricted::is_at_box(beside))

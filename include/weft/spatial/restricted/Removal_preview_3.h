@@ -34,6 +34,16 @@ public:
     mesh_->triangulation().incident_cells(v, std::back_inserter(star_));
     return filling_.find(mesh_->triangulation(), v, star_);
   }
+  /// The same while other threads look at the mesh, too; slower.
+  bool look_without_marks(Vertex_handle v)
+  {
+    star_.clear();
+    mesh_->triangulation().incident_cells_threadsafe(v, std::back_inserter(star_));
+    return filling_.find(mesh_->triangulation(), v, star_);
+  }
+
+  /// The neighbours of the vertex.
+  const std::vector<Vertex_handle>& neighbours() const { return filling_.neighbours(); }
 
   /// Labels the cells and finds their restricted facets.
   void classify() { classifier_.classify(filling_.cells()); }

@@ -67,6 +67,9 @@ public:
   /// The cells found, numbered by `id()`. They are valid until the next call of `find()`.
   const std::vector<Cell_handle>& cells() const { return cells_; }
 
+  /// The neighbours of the vertex.
+  const std::vector<Vertex_handle>& neighbours() const { return neighbours_; }
+
   /// Puts the cells in the place of the vertex.
   /// \param star as in `find()`.
   /// \param made gets the cells in the triangulation, in the order of `cells()`.
@@ -247,7 +250,8 @@ private:
       const double numerator = n2 * x2 - dot_product(m, x);
       const double numerator_error = 64 * unit * area * area * length * (length + sides);
       const double t = numerator / height;
-      const double error = (numerator_error + std::abs(t) * height_error) / height * (1 + 1e-3) + 4 * unit * std::abs(t);
+      const double error =
+          (numerator_error + std::abs(t) * height_error) / height * (1 + 1e-3) + 4 * unit * std::abs(t);
       if (t - error > least) continue;
       if (t + error < least) least = t + error, best = k;
       candidates_.push_back({k, t - error, true});
@@ -297,8 +301,8 @@ private:
   std::vector<int> table_;          ///< sides by key
   std::vector<Vertex_handle> neighbours_;
   std::vector<Xyz_3> points_;
-  std::vector<int> by_id_;                          ///< numbers of neighbours, valid where they name the vertex
-  std::vector<std::pair<Vertex_handle, int>> box_;  ///< the same of those without an id
+  std::vector<int> by_id_;                         ///< numbers of neighbours, valid where they name the vertex
+  std::vector<std::pair<Vertex_handle, int>> box_; ///< the same of those without an id
   std::vector<Candidate> candidates_;
 };
 

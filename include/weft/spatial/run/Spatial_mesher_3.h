@@ -177,7 +177,7 @@ private:
   /// Watches all that comes after refinement: one for each stage would take too long.
   Criteria_guard_3<Restricted>& guard()
   {
-    if (!guard_) guard_.emplace(mesh_, criteria_);
+    if (!guard_) guard_.emplace(mesh_, criteria_, options_.threads);
     return *guard_;
   }
 
