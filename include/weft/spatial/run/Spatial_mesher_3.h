@@ -27,6 +27,7 @@
 #include <weft/spatial/run/Refinement_3.h>
 #include <weft/spatial/run/require_thickness_3.h>
 #include <weft/spatial/run/restart_where_bad_3.h>
+#include <weft/spatial/run/Still_vertices_3.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -82,7 +83,11 @@ public:
   {
     run_.begin_stage("initialisation", Stage::seeding);
     if (!initial_) require_thickness(oracle_, criteria_, refinement_.size_floor(), options_.max_vertices);
-    if (initial_) interior_ = insert_boundary(*initial_, mesh_);
+    if (initial_ && initial_->is_adaptation)
+      mesh_.insert(initial_->points, initial_->locations);
+    else if (initial_)
+      interior_ = insert_boundary(*initial_, mesh_);
+    inserted_at_ = mesh_.version();
     goes_on_ = initial_ ? visit(0) : refinement_.mesh_first_surface();
     run_.begin_stage("surface", Stage::refinement);
     goes_on_ = goes_on_ && refinement_.refine_surface();
@@ -106,6 +111,10 @@ public:
   void optimise()
   {
     if (goes_on_) fix_twins(mesh_);
+    const std::optional<Still_vertices_3<Restricted>> still =
+        goes_on_ && initial_ && initial_->is_adaptation
+            ? std::make_optional<Still_vertices_3<Restricted>>(mesh_, inserted_at_, initial_->changed)
+            : std::nullopt;
     goes_on_ = goes_on_ && coarsen_and_smooth();
     run_.begin_stage("perturbation", Stage::polishing);
     if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
@@ -264,6 +273,7 @@ private:
   const Mesh_options_3& options_;
   const Initial_vertices_3<Kernel>* initial_ = nullptr;
   std::vector<Point> interior_; ///< of the initial vertices, those to be inserted later
+  int inserted_at_ = 0;         ///< version of the mesh when the initial vertices were in
   Restricted mesh_;
   std::optional<Criteria_guard_3<Restricted>> guard_; ///< from when refinement has ended
   Mesh_report_3 report_;
