@@ -18,7 +18,10 @@
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/run/adapt_vertices_3.h>
 
+#include <cstdlib>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace weft {
 
@@ -46,6 +49,51 @@ Make_mesh_result_3<Oracle> adapt_3(const Tetrahedral_mesh_3<typename Oracle::Ker
   Mesh_report_3 report = mesher.run();
   report.coarsened += mesh.points.size() - initial.points.size();
   return {mesher.take_mesh(), std::move(report)};
+}
+
+/// Result of adapting a mesh to its own boundary.
+template <class K>
+struct Adapt_result_3
+{
+  Tetrahedral_mesh_3<K> mesh; ///< with the numbers of subdomains, patches and creases of the mesh that was given
+  Mesh_report_3 report;
+  std::vector<std::string> notes; ///< what was changed in the boundary, for people
+};
+
+/// Adapts a mesh whose boundary is all that is known of its domain. New vertices of the boundary lie on it, so that it
+/// doesn't become smoother than it is; where vertices are taken away it keeps within the approximation bound, but
+/// errors of many adaptations add up: with an oracle they don't.
+/// \param mesh of any origin. Where it isn't Delaunay the result is.
+/// \param criteria as above; without an approximation bound, a tenth of the boundary's edges nearby.
+/// \param sharp_angle edges of the boundary are sharp from this angle on, in degrees; tagged ones, and those between
+///   patches, are in any case.
+/// \throws as above; Domain_error if the boundary of a subdomain isn't a closed surface without self-intersections.
+template <class K>
+Adapt_result_3<K> adapt_3(const Tetrahedral_mesh_3<K>& mesh, Criteria_3<K> criteria,
+                          const Mesh_options_3& options = Mesh_options_3(), double sharp_angle = 60)
+{
+  criteria.check();
+  options.check();
+  internal::require_structure(mesh);
+  Improve_options_3 tags;
+  tags.sharp_angle = sharp_angle;
+  const internal::Mesh_boundary_3<K> boundary(mesh, internal::features_of_mesh(mesh, tags));
+  const internal::Boundary_sizing_3<K> edges(boundary.complex().points, boundary.complex().triangles);
+  const Polyhedral_oracle_3<K> oracle(boundary.complex());
+  if (!criteria.approximation) {
+    criteria.approximation = [edges](const typename K::Point_3& p) { return 0.1 * edges(p); };
+    criteria.deviation = criteria.approximation;
+  }
+  Tetrahedral_mesh_3<K> placed = mesh;
+  placed.locations = boundary.locations();
+  internal::number_by_location(oracle.number_of_patches(), placed);
+  Adapt_result_3<K> result;
+  auto adapted = adapt_3(placed, oracle, criteria, options);
+  result.mesh = tetrahedral_mesh(adapted.restricted);
+  boundary.restore_names(edges, result.mesh);
+  result.report = std::move(adapted.report);
+  result.notes = boundary.complex().changes;
+  return result;
 }
 
 /// \cond

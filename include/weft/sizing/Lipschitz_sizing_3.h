@@ -108,6 +108,9 @@ public:
       limits.guide_part = limits.part * (std::max)(1., 0.3 / (std::max)(k, 1e-3));
       tree_ = std::make_shared<const internal::Size_octree_3>(table(field_at, points, box, limits, guide.get()));
     }
+    smallest_ = std::numeric_limits<double>::infinity();
+    for (const auto& leaf : tree_->leaves)
+      smallest_ = (std::min)(smallest_, *std::min_element(leaf.begin(), leaf.end()));
   }
 
   /// Target edge length at `x`.
@@ -117,6 +120,8 @@ public:
   }
 
   double k() const { return k_; }
+  /// The smallest size anywhere. By it a mesher knows how near vertices may come.
+  double smallest() const { return smallest_; }
   /// Length of the steepest gradient: at most k.
   double max_gradient() const { return tree_->max_gradient(); }
   std::size_t number_of_leaves() const { return tree_->leaves.size(); }
@@ -134,7 +139,7 @@ private:
     return builder.tree();
   }
 
-  double k_;
+  double k_, smallest_ = 0;
   std::shared_ptr<const internal::Size_octree_3> tree_;
 };
 

@@ -54,8 +54,14 @@ public:
 
   /// Elements that are bad now are tolerated from now on, as long as they don't get worse. Linear in the size of the
   /// mesh.
-  Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria)
-      : mesh_(mesh), measure_(mesh, criteria, 1), deviation_(mesh), allowed_(criteria.deviation)
+  /// \param moving_only whether to look only at elements with a vertex that isn't fixed, as far as others stay as they
+  ///   are.
+  Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria, bool moving_only = false)
+      : mesh_(mesh),
+        measure_(mesh, criteria, 1),
+        deviation_(mesh),
+        allowed_(criteria.deviation),
+        moving_only_(moving_only)
   {
     const Part all = everything();
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
@@ -198,10 +204,20 @@ private:
   Part everything() const
   {
     Part all;
-    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) all.cells.push_back(c);
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles())
+      if (may_change(c)) all.cells.push_back(c);
     for (std::size_t f = 0; f < mesh_.facets().size(); ++f)
-      if (mesh_.facets()[f].cell != Cell_handle()) all.facets.push_back(static_cast<int>(f));
+      if (mesh_.facets()[f].cell != Cell_handle() && may_change(mesh_.facets()[f].cell))
+        all.facets.push_back(static_cast<int>(f));
     return all;
+  }
+
+  bool may_change(Cell_handle c) const
+  {
+    if (!moving_only_) return true;
+    for (int i = 0; i < 4; ++i)
+      if (c->vertex(i)->id() >= 0 && !mesh_.is_fixed(c->vertex(i))) return true;
+    return false;
   }
 
   void tolerate(const Part& part)
@@ -334,6 +350,7 @@ private:
   std::vector<std::size_t> creases_; ///< that have edges
   Deviation_3<Restricted> deviation_;
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
+  bool moving_only_;
   Squared_deviation_3 farthest_;   ///< that facets may be
   double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
   /// For what lies between the samples of facets.

@@ -165,6 +165,7 @@ private:
     run_.begin_stage("sorting in memory", Stage::polishing);
     sort_in_memory(mesh_);
     report_.refined_smallest_dihedral = smallest_dihedral();
+    if (initial_ && initial_->is_adaptation) return smooth() && coarsen(); // what was too much is gone already
     if (refinement_.bad_left() > 0 && is_bad_all_over()) return coarsen();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     return !initial_ || refine_to_final_shapes();
@@ -184,7 +185,7 @@ private:
   /// Watches all that comes after refinement: one for each stage would take too long.
   Criteria_guard_3<Restricted>& guard()
   {
-    if (!guard_) guard_.emplace(mesh_, criteria_);
+    if (!guard_) guard_.emplace(mesh_, criteria_, initial_ && initial_->is_adaptation);
     return *guard_;
   }
 
@@ -193,6 +194,7 @@ private:
     run_.begin_stage("coarsening", Stage::polishing);
     if (!options_.coarsen) return true;
     Coarsen_options_3 options;
+    if (initial_ && initial_->is_adaptation) options.most_passes = 1;
     options.time_limit = run_.time_left();
     options.go_on = [this] { return visit(0); };
     report_.coarsened += coarsen_3(mesh_, guard(), options).removed;

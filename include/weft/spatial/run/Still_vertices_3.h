@@ -22,7 +22,7 @@ public:
   /// \param changed by number, others that have.
   Still_vertices_3(Restricted& mesh, int since, const std::vector<char>& changed) : mesh_(mesh)
   {
-    constexpr int rings = 2;
+    constexpr int rings = 1; // around vertices of new cells
     const std::size_t n = mesh.vertices().size();
     std::vector<char> moves(n, false);
     for (std::size_t v = 0; v < n; ++v)

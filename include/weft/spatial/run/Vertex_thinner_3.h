@@ -30,7 +30,9 @@ public:
       : mesh_(mesh), criteria_(criteria), is_fixed_(fixed)
   {
     for (const auto& p : mesh.points) points_.push_back(xyz(p));
-    list_neighbours();
+    all_ = graph_of(mesh.cells);
+    surface_ = graph_of(mesh.facets);
+    reached_.assign(points_.size(), 0);
     for (std::size_t v = 0; v < points_.size(); ++v) sizes_.push_back(criteria.size(mesh.points[v]));
   }
 
@@ -43,21 +45,16 @@ public:
     for (std::size_t v = 0; v < points_.size(); ++v)
       if (may_go[v]) order.emplace_back(mesh_.locations[v].dimension, v);
     std::sort(order.begin(), order.end());
-    std::vector<std::size_t> reached(points_.size(), points_.size()), queue;
     for (const auto& entry : order) {
       const std::size_t v = entry.second;
       if (!stays[v]) continue;
-      const double radius = apart * sizes_[v];
-      queue.assign(1, v);
-      reached[v] = v;
-      for (std::size_t i = 0; i < queue.size(); ++i)
-        for (std::size_t e = first_[queue[i]]; e < first_[queue[i] + 1]; ++e) {
-          const std::size_t w = neighbours_[e];
-          if (reached[w] == v || norm(minus(points_[w], points_[v])) > radius) continue;
-          reached[w] = v;
-          queue.push_back(w);
-          if (may_go[w] && mesh_.locations[w].dimension >= mesh_.locations[v].dimension) stays[w] = false;
-        }
+      visit_near(v, all_, [&](std::size_t w) {
+        if (may_go[w] && mesh_.locations[w].dimension == 3) stays[w] = false;
+      });
+      if (mesh_.locations[v].dimension == 3) continue;
+      visit_near(v, surface_, [&](std::size_t w) { // along the surface: a sheet on the other side stays
+        if (may_go[w] && mesh_.locations[w].dimension >= mesh_.locations[v].dimension) stays[w] = false;
+      });
     }
     return stays;
   }
@@ -66,26 +63,56 @@ public:
   void mark_around(const std::vector<char>& stays, std::vector<char>& marked) const
   {
     for (std::size_t v = 0; v < stays.size(); ++v)
-      for (std::size_t e = first_[v]; !stays[v] && e < first_[v + 1]; ++e) marked[neighbours_[e]] = true;
+      for (std::size_t e = all_.first[v]; !stays[v] && e < all_.first[v + 1]; ++e) marked[all_.ends[e]] = true;
   }
 
 private:
-  static constexpr double too_short = 0.42; ///< in parts of the size: edges of meshes that fit rarely are
-  static constexpr double apart = 0.62;     ///< the same of distances between those that stay
+  /// In parts of the size: mean edges of meshes that fit are about 0.8, single ones rarely below 0.4.
+  static constexpr double too_short_on_average = 0.55, too_short = 0.25;
+  static constexpr double apart = 0.62; ///< the same of distances between those that stay
 
-  void list_neighbours()
+  /// Neighbours of each vertex, in order.
+  struct Graph
   {
-    std::vector<std::pair<std::size_t, std::size_t>> ends;
-    ends.reserve(12 * mesh_.cells.size());
-    for (const auto& c : mesh_.cells)
-      for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j)
-          if (i != j) ends.emplace_back(c[i], c[j]);
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    first_.assign(points_.size() + 1, 0);
-    for (const auto& e : ends) ++first_[e.first + 1], neighbours_.push_back(e.second);
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    std::vector<std::size_t> first, ends;
+
+    Graph() = default;
+    Graph(std::size_t n, std::vector<std::array<std::size_t, 2>> pairs) : first(n + 1, 0)
+    {
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+      for (const auto& e : pairs) ++first[e[0] + 1], ends.push_back(e[1]);
+      for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    }
+  };
+
+  template <class Elements>
+  Graph graph_of(const Elements& elements) const
+  {
+    std::vector<std::array<std::size_t, 2>> pairs;
+    for (const auto& element : elements)
+      for (const std::size_t v : element)
+        for (const std::size_t w : element)
+          if (v != w) pairs.push_back({v, w});
+    return Graph(points_.size(), std::move(pairs));
+  }
+
+  /// Calls `visit(w)` for the vertices that edges of a graph lead to without leaving the ball that v keeps free.
+  template <class Visit>
+  void visit_near(std::size_t v, const Graph& graph, const Visit& visit)
+  {
+    const double radius = apart * sizes_[v];
+    queue_.assign(1, v);
+    ++round_;
+    reached_[v] = round_;
+    for (std::size_t i = 0; i < queue_.size(); ++i)
+      for (std::size_t e = graph.first[queue_[i]]; e < graph.first[queue_[i] + 1]; ++e) {
+        const std::size_t w = graph.ends[e];
+        if (reached_[w] == round_ || norm(minus(points_[w], points_[v])) > radius) continue;
+        reached_[w] = round_;
+        queue_.push_back(w);
+        visit(w);
+      }
   }
 
   /// Vertices at edges that are too short, unless the surface bends so much there that it needs them.
@@ -97,10 +124,16 @@ private:
       if (mesh_.locations[v].dimension < 1 || is_fixed_[v]) continue;
       const double approximation = criteria_.approximation ? criteria_.approximation(mesh_.points[v]) : 0;
       if (approximation > 0 && bend[v] * sizes_[v] * sizes_[v] / 8 > approximation) continue;
-      for (std::size_t e = first_[v]; e < first_[v + 1] && !result[v]; ++e) {
-        const std::size_t w = neighbours_[e];
-        result[v] = norm(minus(points_[v], points_[w])) < too_short * (std::min)(sizes_[v], sizes_[w]);
+      // Of the boundary, edges along it: those across a thin part say nothing.
+      const Graph& graph = mesh_.locations[v].dimension == 3 ? all_ : surface_;
+      double sum = 0, shortest = HUGE_VAL;
+      for (std::size_t e = graph.first[v]; e < graph.first[v + 1]; ++e) {
+        const std::size_t w = graph.ends[e];
+        const double part = norm(minus(points_[v], points_[w])) / (std::min)(sizes_[v], sizes_[w]);
+        sum += part, shortest = (std::min)(shortest, part);
       }
+      const auto n = static_cast<double>(graph.first[v + 1] - graph.first[v]);
+      result[v] = sum < too_short_on_average * n || shortest < too_short;
     }
     return result;
   }
@@ -162,7 +195,9 @@ private:
   const std::vector<char>& is_fixed_;
   std::vector<Xyz_3> points_;
   std::vector<double> sizes_;
-  std::vector<std::size_t> first_, neighbours_; ///< of each vertex
+  Graph all_, surface_;
+  std::vector<std::size_t> reached_, queue_;
+  std::size_t round_ = 0;
 };
 
 } // namespace weft::internal

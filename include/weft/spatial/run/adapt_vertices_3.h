@@ -38,6 +38,29 @@ bool is_mesh_of(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle)
   return true;
 }
 
+/// Gives the facets and crease edges of a mesh the numbers of the parts that their vertices lie on, as far as thinning
+/// asks for them: which facets lie on one patch, and which edges lie on a crease. Of facets with vertices on creases
+/// alone it isn't known: they get numbers of their own, so that nothing beside them counts as a bend of a patch.
+template <class K>
+void number_by_location(int number_of_patches, Tetrahedral_mesh_3<K>& mesh)
+{
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    mesh.patches[f] = number_of_patches + static_cast<int>(f);
+    for (const std::size_t v : mesh.facets[f])
+      if (mesh.locations[v].dimension == 2) mesh.patches[f] = mesh.locations[v].index;
+  }
+  mesh.edges.clear();
+  mesh.creases.clear();
+  for (const auto& facet : mesh.facets)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t a = facet[i], b = facet[(i + 1) % 3];
+      const Vertex_location_3 &p = mesh.locations[a], &q = mesh.locations[b];
+      if (a > b || p.dimension > 1 || q.dimension > 1 || (p.dimension == 1 && q.dimension == 1 && p != q)) continue;
+      mesh.edges.push_back({a, b});
+      mesh.creases.push_back(p.dimension == 1 ? p.index : q.index);
+    }
+}
+
 /// \throws Domain_error for a mesh of another domain.
 template <class K, class Oracle>
 Initial_vertices_3<K> adapted_vertices_3(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle,

@@ -75,6 +75,7 @@ public:
   FT operator()(const Point& x) const { return field_(x); }
 
   double k() const { return field_.k(); }
+  double smallest() const { return field_.smallest(); } ///< anywhere
   /// The field as what it is.
   const Lipschitz_sizing_3<K>& field() const { return field_; }
 
