@@ -16,6 +16,7 @@
 #include <weft/spatial/sizing/Background_sizing_3.h>
 #include <weft/spatial/sizing/Feature_sizing_3.h>
 #include <weft/spatial/sizing/grade_criteria_3.h>
+#include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 
@@ -81,6 +82,11 @@ void check_gradation(const Lipschitz& field, double k)
   CHECK(worst <= k * (1 + 1e-9) + 1e-12);
   CHECK(field.max_gradient() <= k * (1 + 1e-9));
   CHECK(worst >= 0.5 * k); // it does grow
+}
+
+Oracle oracle_of(const surfaces::Surface& surface)
+{
+  return Oracle(weft::piecewise_smooth_complex(surface.points, surface.triangles, weft::Feature_options(60)));
 }
 
 double one(const Point&)
@@ -194,25 +200,25 @@ TEST_CASE("grids give linear functions back in both dimensions")
 
 TEST_CASE("features are thicknesses and gaps, not edges")
 {
-  const auto size_at = [](const fixtures::Surface& surface, const Point& p, double cells) {
+  const auto size_at = [](const surfaces::Surface& surface, const Point& p, double cells) {
     weft::Feature_sizing_options_3 options;
     options.cells = cells;
     options.max_size = 1;
-    return weft::Feature_sizing_3<K>(Oracle(surface, weft::Feature_options(60)), 0.5, options)(p);
+    return weft::Feature_sizing_3<K>(oracle_of(surface), 0.5, options)(p);
   };
-  const auto plate = fixtures::box(8, 8, 1); // unit cubes
+  const auto plate = surfaces::box(8, 8, 1); // unit cubes
   CHECK(size_at(plate, Point(4, 4, 0.5), 2) <= 0.5 * 1.01);
   CHECK(size_at(plate, Point(4, 4, 0.5), 2) >= 0.35);
   CHECK(size_at(plate, Point(4, 4, 0.5), 4) <= 0.25 * 1.01);
-  const auto cube = fixtures::box(4, 4, 4);
+  const auto cube = surfaces::box(4, 4, 4);
   CHECK(size_at(cube, Point(0, 0, 0), 2) >= 0.9); // its edges and corners ask for nothing
-  const auto two = fixtures::together(fixtures::box(4, 4, 4), fixtures::moved(fixtures::box(4, 4, 4), 1, 4.5, 0, 0));
+  const auto two = surfaces::together(surfaces::box(4, 4, 4), surfaces::moved(surfaces::box(4, 4, 4), 1, 4.5, 0, 0));
   CHECK(size_at(two, Point(4.25, 2, 2), 2) <= 0.25 * 1.1); // half of the gap
 }
 
 TEST_CASE("sizes of subdomains, patches and creases grade")
 {
-  const Oracle oracle(fixtures::box(4, 4, 4), weft::Feature_options(60));
+  const Oracle oracle = oracle_of(surfaces::box(4, 4, 4));
   weft::Criteria_3<K> criteria;
   criteria.size = 1;
   criteria.crease_size = 0.2;
