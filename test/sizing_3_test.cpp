@@ -107,14 +107,14 @@ TEST_CASE("sizes at points spread by at most k, above no source and near the lar
   options.max_size = 0.5;
   const Lipschitz field(sources, box, k, options);
   check_gradation(field, k);
-  for (const auto& s : sources) CHECK(field(s.point) <= s.size * (1 + 1e-12));
+  for (const auto& s : sources) CHECK(field(s.point) <= s.size * (1 + 1e-9));
   double mean = 0;
   constexpr int samples = 2000;
   for (int i = 0; i < samples; ++i) {
     const Point p = random.in_box();
     double exact = 0.5;
     for (const auto& s : sources) exact = std::min(exact, s.size + k * distance(p, s.point));
-    REQUIRE(field(p) <= exact * (1 + 1e-9));
+    REQUIRE(field(p) <= exact * (1 + 1e-6));
     mean += field(p) / exact / samples;
   }
   CHECK(mean > 0.65);
@@ -207,13 +207,14 @@ TEST_CASE("features are thicknesses and gaps, not edges")
     return weft::Feature_sizing_3<K>(oracle_of(surface), 0.5, options)(p);
   };
   const auto plate = surfaces::box(8, 8, 1); // unit cubes
-  CHECK(size_at(plate, Point(4, 4, 0.5), 2) <= 0.5 * 1.01);
-  CHECK(size_at(plate, Point(4, 4, 0.5), 2) >= 0.35);
-  CHECK(size_at(plate, Point(4, 4, 0.5), 4) <= 0.25 * 1.01);
+  CHECK(size_at(plate, Point(4, 4, 1), 2) <= 0.5 + 0.05); // half a step between samples, and k
+  CHECK(size_at(plate, Point(4, 4, 1), 2) >= 0.35);
+  CHECK(size_at(plate, Point(4, 4, 0), 4) <= 0.25 + 0.05);
+  CHECK(size_at(plate, Point(4, 4, 0), 4) >= 0.15);
   const auto cube = surfaces::box(4, 4, 4);
   CHECK(size_at(cube, Point(0, 0, 0), 2) >= 0.9); // its edges and corners ask for nothing
   const auto two = surfaces::together(surfaces::box(4, 4, 4), surfaces::moved(surfaces::box(4, 4, 4), 1, 4.5, 0, 0));
-  CHECK(size_at(two, Point(4.25, 2, 2), 2) <= 0.25 * 1.1); // half of the gap
+  CHECK(size_at(two, Point(4, 2, 2), 2) <= 0.25 + 0.05); // half of the gap
 }
 
 TEST_CASE("sizes of subdomains, patches and creases grade")

@@ -118,17 +118,6 @@ public:
     }
   }
 
-  /// The same, of all masters as far as the bound.
-  void lower_all(Index corner, double bound)
-  {
-    if (hangs[corner] == 0) {
-      values[corner] = std::min(values[corner], bound);
-      return;
-    }
-    const Hanging& h = hanging[hangs[corner] - 1];
-    for (std::size_t i = 0; i < h.count; ++i) lower_all(h.master[i], bound);
-  }
-
   std::array<double, 3> point(Index corner) const { return point(places_[corner]); }
 
   std::vector<double> values;                ///< by corner; of those that hang, as the field has them

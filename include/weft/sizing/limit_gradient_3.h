@@ -79,8 +79,13 @@ private:
   /// Where a corner that hangs has a smaller size than the mean of its masters.
   void lower_masters()
   {
-    for (const auto& h : octree_.hanging)
-      if (octree_.value(h.corner) > octree_.values[h.corner]) octree_.lower_all(h.corner, octree_.values[h.corner]);
+    constexpr int most_steps = 60; // in each the excess falls by a quarter at least
+    constexpr double slack = 1 + 1e-12;
+    for (const auto& h : octree_.hanging) {
+      const double bound = octree_.values[h.corner];
+      for (int step = 0; step < most_steps && octree_.value(h.corner) > slack * bound; ++step)
+        octree_.lower(h.corner, bound);
+    }
   }
 
   /// Looks at all leaves, those with the smallest sizes first. \returns whether something was changed.
