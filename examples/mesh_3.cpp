@@ -39,9 +39,10 @@ using mesh_3_program::Result;
 // ---- What is asked for
 
 const std::string before_options =
-    "usage: mesh_3 INPUT... [--size [LABEL:]S]... [--approximation [LABEL:]E]... [--facet-shape R] [--cell-shape R]\n"
-    "              [--sharp-angle DEG] [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb]\n"
-    "              [--strict] [--weld PART] [--cap SHARE] [--iso VALUE] [--inside above|below] [--labels]\n"
+    "usage: mesh_3 INPUT... [--size [LABEL:]S|auto]... [--size-field FILE] [--gradation K]\n"
+    "              [--approximation [LABEL:]E]... [--facet-shape R] [--cell-shape R] [--sharp-angle DEG]\n"
+    "              [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb] [--strict]\n"
+    "              [--weld PART] [--cap SHARE] [--iso VALUE] [--inside above|below] [--labels]\n"
     "              [--name LABEL:NAME]...\n"
     "              [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
@@ -63,8 +64,9 @@ struct Request : command_line::Files
 {
   Length size{5, true}, approximation{0.1, true};
   std::vector<std::string> size_texts, approximation_texts, name_texts; ///< as given
-  std::map<int, Length> size_of, approximation_of;                      ///< instead, by label
-  mesh_3_program::Bounds bounds;                                        ///< without lengths, which need the input
+  std::string size_field;
+  std::map<int, Length> size_of, approximation_of; ///< instead, by label
+  mesh_3_program::Bounds bounds;                   ///< without lengths, which need the input
   mesh_3_program::Image_options image;
   double iso = 0;
   weft::Feature_options features;
@@ -79,9 +81,15 @@ void add_options(command_line::Options& options, Request& request)
   constexpr double most = std::numeric_limits<double>::max();
   auto& bounds = request.bounds;
   options.operands(request.inputs);
-  options.texts("--size", "[LABEL:]S", request.size_texts,
+  options.texts("--size", "[LABEL:]S|auto", request.size_texts,
                 "longest edge (default 5%); after a label, in subdomains with that label only, as in\n2:0.1. Labels "
-                "are an image's values, or the numbers of surfaces");
+                "are an image's values, or the numbers of surfaces. auto: as fine as the\ndomain's features want, two "
+                "edges across its thicknesses and gaps, at most S");
+  options.text("--size-field", "FILE", request.size_field,
+               "sizes in space, at most S: at the vertices of a .vtu, .msh, or .mesh with its .sol,\nor an image of "
+               "them; graded");
+  options.positive("--gradation", "K", request.bounds.gradation,
+                   "growth of sizes per unit of distance (any; 0.5 where they come from features or a\nfile)");
   options.texts("--approximation", "[LABEL:]E", request.approximation_texts,
                 "distance of facets and crease edges to the surface, 0 for any (default 0.1%; in images at least\n0.6 "
                 "voxels); after a label, at the boundary of that subdomain only");
@@ -132,7 +140,12 @@ void check_shape(const command_line::Options& options, const std::string& option
 /// Reads what options say of labels.
 void check_labels(Request& request)
 {
-  command_line::read_lengths("--size", "label", request.size_texts, false, request.size, request.size_of);
+  auto& sizes = request.size_texts;
+  const auto automatic = std::remove(sizes.begin(), sizes.end(), "auto");
+  request.bounds.by_features = automatic != sizes.end();
+  sizes.erase(automatic, sizes.end());
+  command_line::read_lengths("--size", "label", sizes, false, request.size, request.size_of);
+  if (!request.size_field.empty() && sizes.size() == request.size_of.size()) request.size = {100, true};
   command_line::read_lengths("--approximation", "label", request.approximation_texts, true, request.approximation,
                              request.approximation_of);
   request.approximation_is_given = request.approximation_texts.size() > request.approximation_of.size();
@@ -271,6 +284,7 @@ std::unique_ptr<Domain> read_domain(const Request& request, const std::function<
 mesh_3_program::Bounds bounds(const Request& request, const Domain& domain)
 {
   mesh_3_program::Bounds bounds = request.bounds;
+  if (!request.size_field.empty()) bounds.size_field = mesh_3_program::read_size_field(request.size_field);
   const double extent = domain.extent();
   bounds.size = request.size.in(extent);
   bounds.approximation = request.approximation.in(extent);
@@ -308,7 +322,7 @@ Status run(const Request& request)
 
   options.visitor = std::ref(progress);
   const mesh_3_program::Bounds asked = bounds(request, *domain);
-  options.size_floor = domain->least_edge();
+  options.size_floor = asked.size_field || asked.by_features ? 0 : domain->least_edge();
   for (const auto& [label, size] : asked.size_of) options.size_floor = std::min(options.size_floor, 0.3 * size);
   options.size_floor = std::min(options.size_floor, 0.3 * asked.size);
   const auto result = domain->mesh(asked, options);

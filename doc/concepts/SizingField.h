@@ -20,8 +20,9 @@ namespace concepts {
 /// weft::Length_field_3, is called for middles of edges, and stands for any length that may depend on the place, such
 /// as Criteria_3::approximation.
 ///
-/// Models: weft::Uniform_sizing, and in the plane weft::Lfs_sizing_2, weft::Lipschitz_sizing_2,
-/// weft::Background_sizing_2 and weft::Cached_sizing_2.
+/// Models: weft::Uniform_sizing; in the plane weft::Lfs_sizing_2, weft::Lipschitz_sizing_2, weft::Background_sizing_2,
+/// weft::Cached_sizing_2 and weft::Grid_sizing; in space weft::Lipschitz_sizing_3, weft::Feature_sizing_3,
+/// weft::Background_sizing_3 and weft::Grid_sizing. In space one thread asks, in the plane all of them do.
 /// \tparam Point of the kernel of the mesh.
 /// \tparam Model what this archetype passes everything on to; no part of the concept.
 /// \ingroup concept_classes

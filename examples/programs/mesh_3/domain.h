@@ -11,6 +11,8 @@
 #include <weft/spatial/surface/Feature_options.h>
 #include <weft/spatial/surface/Mend_options_3.h>
 
+#include <array>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -27,7 +29,16 @@ struct Bounds
   std::map<int, std::string> name_of;              ///< what subdomains with a label are called in files
   double facet_shape = 2, cell_shape = 2;
   bool topology = false, manifold = false;
+  bool by_features = false; ///< sizes from the features of the domain, at most `size`
+  double gradation = 0;     ///< growth of sizes per unit of distance; 0: any
+  /// Sizes at places, at most `size`; may be empty.
+  std::function<double(const std::array<double, 3>&)> size_field;
+
+  bool vary() const { return by_features || gradation > 0 || size_field; }
 };
+
+/// Reads a field of sizes. \throws weft::File_error, weft::Option_error.
+std::function<double(const std::array<double, 3>&)> read_size_field(const std::string& filename);
 
 /// A mesh with what is known about it; see result.h.
 struct Result;

@@ -52,7 +52,7 @@ public:
   std::shared_ptr<const Result> mesh(const Bounds& bounds, const weft::Mesh_options_3& options) const override
   {
     const weft::Mesh_names_3 names = names_of_parts(by_subdomain(bounds.name_of, parts_));
-    const auto result = weft::make_mesh_3(oracle_, criteria(bounds, parts_), options);
+    const auto result = weft::make_mesh_3(oracle_, with_sizes(oracle_, criteria(bounds, parts_), bounds), options);
     weft::Tetrahedral_mesh_3<K> mesh = weft::tetrahedral_mesh(result.restricted);
     auto missing = weft::missing_components_3(oracle_.image(), oracle_.components(), mesh);
     for (weft::Voxel_component_3& c : missing) c.label = label_of(c.label);

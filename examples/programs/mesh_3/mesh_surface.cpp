@@ -20,7 +20,9 @@ std::shared_ptr<const Result> mesh_surface(const weft::Piecewise_smooth_complex_
       if (side != 0) parts.subdomains[side] = side;
   }
   const weft::Mesh_names_3 names{by_subdomain(bounds.name_of, parts), {}};
-  const auto result = weft::mesh_surface_3(surface, criteria(bounds, parts), options);
+  weft::Criteria_3<K> criteria = mesh_3_program::criteria(bounds, parts);
+  if (bounds.vary()) criteria = with_sizes(weft::Polyhedral_oracle_3<K>(surface), criteria, bounds);
+  const auto result = weft::mesh_surface_3(surface, criteria, options);
   return make_result(weft::tetrahedral_mesh(result.restricted), result.report, names);
 }
 

@@ -44,6 +44,15 @@ public:
 
   bool has(const std::string& section, const std::string& name) const { return arrays_.count({section, name}) > 0; }
 
+  /// The names of the arrays of a section, in alphabetical order.
+  std::vector<std::string> names(const std::string& section) const
+  {
+    std::vector<std::string> result;
+    for (const auto& [key, array] : arrays_)
+      if (key.first == section) result.push_back(key.second);
+    return result;
+  }
+
   /// All numbers of an array.
   std::vector<double> numbers(const std::string& section, const std::string& name) const
   {

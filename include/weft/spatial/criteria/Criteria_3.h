@@ -20,6 +20,21 @@
 #include <vector>
 
 namespace weft {
+namespace internal {
+
+/// What a field says is its smallest value, or 0.
+template <class Field>
+auto smallest_of(const Field& field, int) -> decltype(double(field.smallest()))
+{
+  return field.smallest();
+}
+template <class Field>
+double smallest_of(const Field&, long)
+{
+  return 0;
+}
+
+} // namespace internal
 
 /// A length that may depend on the place: a constant or any callable, point -> length in the input's units.
 /// Zero stands for "no bound".
@@ -31,7 +46,7 @@ public:
 
   Length_field_3(double constant = 0) : constant_(constant) {} // NOLINT: a number is a field
   template <class Field, class = std::enable_if_t<std::is_invocable_r_v<double, const Field&, const Point&>>>
-  Length_field_3(Field field) : constant_(-1), field_(std::move(field)) // NOLINT: so is a callable
+  Length_field_3(Field field) : constant_(-1), smallest_(internal::smallest_of(field, 0)), field_(std::move(field)) // NOLINT: so is a callable
   {}
   /// \cond
   // Only says what is wrong with any other object.
@@ -59,9 +74,11 @@ public:
     return value;
   }
   double constant() const { return constant_; }
+  /// The smallest length where that is known: of constants, and of fields that say so; else 0.
+  double smallest() const { return field_ ? smallest_ : constant_; }
 
 private:
-  double constant_;
+  double constant_, smallest_ = 0;
   std::function<double(const Point&)> field_;
 };
 

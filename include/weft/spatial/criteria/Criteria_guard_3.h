@@ -60,12 +60,16 @@ public:
   /// mesh.
   /// \param threads to use where many elements are looked at; what they find is the same for any number. Criteria of
   ///   the user are asked by one.
-  Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria, int threads = 1)
+  /// \param moving_only whether to look only at elements with a vertex that isn't fixed, as far as others stay as they
+  ///   are.
+  Criteria_guard_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria, int threads = 1,
+                   bool moving_only = false)
       : mesh_(mesh),
         measure_(mesh, criteria, 1),
         deviation_(mesh),
         allowed_(criteria.deviation),
-        threads_(Restricted::Oracle::is_thread_safe && !criteria.has_functions() ? threads : 1)
+        threads_(Restricted::Oracle::is_thread_safe && !criteria.has_functions() ? threads : 1),
+        moving_only_(moving_only)
   {
     const Part all = everything();
     const CGAL::Bbox_3 b = mesh.oracle().bbox();
@@ -267,10 +271,20 @@ private:
   Part everything() const
   {
     Part all;
-    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) all.cells.push_back(c);
+    for (const Cell_handle c : mesh_.triangulation().finite_cell_handles())
+      if (may_change(c)) all.cells.push_back(c);
     for (std::size_t f = 0; f < mesh_.facets().size(); ++f)
-      if (mesh_.facets()[f].cell != Cell_handle()) all.facets.push_back(static_cast<int>(f));
+      if (mesh_.facets()[f].cell != Cell_handle() && may_change(mesh_.facets()[f].cell))
+        all.facets.push_back(static_cast<int>(f));
     return all;
+  }
+
+  bool may_change(Cell_handle c) const
+  {
+    if (!moving_only_) return true;
+    for (int i = 0; i < 4; ++i)
+      if (c->vertex(i)->id() >= 0 && !mesh_.is_fixed(c->vertex(i))) return true;
+    return false;
   }
 
   void tolerate(const Part& part)
@@ -428,8 +442,9 @@ private:
   mutable std::uint64_t era_ = 0;                           ///< of the mesh in this version, for single changes
   mutable int version_ = -1;
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
-  Squared_deviation_3 farthest_;   ///< that facets may be
-  double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
+  bool moving_only_;
+  Squared_deviation_3 farthest_;  ///< that facets may be
+  double farthest_of_crease_ = 0; ///< that crease edges may be, squared
   int threads_;
   /// For what lies between the samples of facets.
   static constexpr double closer = 0.85;

@@ -106,6 +106,11 @@ public:
 
   /// Makes a vertex stay where it is: neither smoothing nor perturbation nor coarsening touch it from now on.
   void fix(Vertex_handle v) { set_fixed(v, fixed_for_good); }
+  /// Takes `fix()` back.
+  void release(Vertex_handle v)
+  {
+    if (is_fixed(v) && !is_fixed_with_twin(v)) set_fixed(v, false);
+  }
   /// The same because of a twin beside a small angle of the boundary; it may move within rounding.
   void fix_with_twin(Vertex_handle v)
   {

@@ -98,7 +98,8 @@ public:
     if (options_.size_floor > 0) return options_.size_floor;
     const CGAL::Bbox_3 b = mesh_.oracle().bbox();
     const double diagonal = std::hypot(b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin());
-    double floor = 1e-3 * (criteria_.size.is_constant() ? (std::min)(diagonal, criteria_.size.constant()) : diagonal);
+    const double smallest = criteria_.size.smallest();
+    double floor = 1e-3 * (smallest > 0 ? (std::min)(diagonal, smallest) : diagonal);
     if (criteria_.approximation && criteria_.approximation.is_constant())
       floor = (std::min)(floor, Approximation_multiples::size_floor * criteria_.approximation.constant());
     for (const auto& [patch, own] : criteria_.patches)

@@ -28,6 +28,7 @@
 #include <weft/spatial/run/Refinement_3.h>
 #include <weft/spatial/run/require_thickness_3.h>
 #include <weft/spatial/run/restart_where_bad_3.h>
+#include <weft/spatial/run/Still_vertices_3.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -84,7 +85,11 @@ public:
   {
     run_.begin_stage("initialisation", Stage::seeding);
     if (!initial_) require_thickness(oracle_, criteria_, refinement_.size_floor(), options_.max_vertices);
-    if (initial_) interior_ = insert_boundary(*initial_, mesh_);
+    if (initial_ && initial_->is_adaptation)
+      mesh_.insert(initial_->points, initial_->locations);
+    else if (initial_)
+      interior_ = insert_boundary(*initial_, mesh_);
+    inserted_at_ = mesh_.version();
     goes_on_ = initial_ ? visit(0) : refinement_.mesh_first_surface();
     run_.begin_stage("surface", Stage::refinement);
     goes_on_ = goes_on_ && refinement_.refine_surface();
@@ -108,6 +113,10 @@ public:
   void optimise()
   {
     if (goes_on_) fix_twins(mesh_);
+    const std::optional<Still_vertices_3<Restricted>> still =
+        goes_on_ && initial_ && initial_->is_adaptation
+            ? std::make_optional<Still_vertices_3<Restricted>>(mesh_, inserted_at_, initial_->changed)
+            : std::nullopt;
     goes_on_ = goes_on_ && coarsen_and_smooth();
     run_.begin_stage("perturbation", Stage::polishing);
     if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
@@ -158,6 +167,7 @@ private:
     run_.begin_stage("sorting in memory", Stage::polishing);
     sort_in_memory(mesh_);
     report_.refined_smallest_dihedral = smallest_dihedral();
+    if (initial_ && initial_->is_adaptation) return smooth() && coarsen(); // what was too much is gone already
     if (refinement_.bad_left() > 0 && is_bad_all_over()) return coarsen();
     if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
     return !initial_ || refine_to_final_shapes();
@@ -177,7 +187,7 @@ private:
   /// Watches all that comes after refinement: one for each stage would take too long.
   Criteria_guard_3<Restricted>& guard()
   {
-    if (!guard_) guard_.emplace(mesh_, criteria_, options_.threads);
+    if (!guard_) guard_.emplace(mesh_, criteria_, options_.threads, initial_ && initial_->is_adaptation);
     return *guard_;
   }
 
@@ -186,6 +196,7 @@ private:
     run_.begin_stage("coarsening", Stage::polishing);
     if (!options_.coarsen) return true;
     Coarsen_options_3 options;
+    if (initial_ && initial_->is_adaptation) options.most_passes = 1;
     options.time_limit = run_.time_left();
     options.go_on = [this] { return visit(0); };
     report_.coarsened += coarsen_3(mesh_, guard(), options).removed;
@@ -269,6 +280,7 @@ private:
   const Mesh_options_3& options_;
   const Initial_vertices_3<Kernel>* initial_ = nullptr;
   std::vector<Point> interior_; ///< of the initial vertices, those to be inserted later
+  int inserted_at_ = 0;         ///< version of the mesh when the initial vertices were in
   Restricted mesh_;
   std::optional<Criteria_guard_3<Restricted>> guard_; ///< from when refinement has ended
   Mesh_report_3 report_;
