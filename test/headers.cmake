@@ -18,6 +18,10 @@ set(groups triangulation_3 triangulation_2 kernel rationals functions numbers) #
 
 file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/include/weft/*.h)
 list(SORT headers)
+find_package(Eigen3 CONFIG QUIET)
+if(NOT TARGET Eigen3::Eigen)
+  list(FILTER headers EXCLUDE REGEX "(^|/)solve/")
+endif()
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${generated})
 
@@ -69,7 +73,8 @@ foreach(group IN LISTS groups ITEMS none)
     continue()
   endif()
   add_library(headers_after_${group} OBJECT EXCLUDE_FROM_ALL ${sources_${group}})
-  target_link_libraries(headers_after_${group} PRIVATE weft::weft weft_strict_warnings)
+  target_link_libraries(headers_after_${group}
+    PRIVATE weft::weft weft_strict_warnings $<$<TARGET_EXISTS:Eigen3::Eigen>:Eigen3::Eigen>)
   target_compile_options(headers_after_${group} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0;-g0;-Werror>)
   if(group MATCHES "^triangulation_(.)$")
     target_precompile_headers(headers_after_${group} REUSE_FROM weft_precompiled_${CMAKE_MATCH_1})
@@ -85,7 +90,7 @@ file(CONFIGURE OUTPUT ${generated}/link_twice_main.cpp
 file(CONFIGURE OUTPUT ${generated}/link_twice_other.cpp
   CONTENT "${all_includes}int other_translation_unit();\nint other_translation_unit() { return 0; }\n")
 add_executable(link_twice EXCLUDE_FROM_ALL ${generated}/link_twice_main.cpp ${generated}/link_twice_other.cpp)
-target_link_libraries(link_twice PRIVATE weft::weft weft_warnings)
+target_link_libraries(link_twice PRIVATE weft::weft weft_warnings $<$<TARGET_EXISTS:Eigen3::Eigen>:Eigen3::Eigen>)
 target_compile_options(link_twice PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O0;-g0>)
 
 # Two builds in one build tree must not run at once.

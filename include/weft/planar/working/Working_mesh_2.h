@@ -16,6 +16,7 @@
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/triangulation/Relocator_2.h>
+#include <weft/planar/working/chains_of_mesh_2.h>
 #include <weft/planar/working/Constraint_chains_2.h>
 #include <weft/planar/working/Frame_2.h>
 #include <weft/planar/working/Vertex_remover_2.h>
@@ -53,8 +54,9 @@ public:
   /// Where constrained vertices of the given triangulation stand.
   enum class Given
   {
-    input,    ///< every vertex is an input vertex: nothing given moves
-    relaxable ///< vertices without constraints are free
+    input,     ///< every vertex is an input vertex: nothing given moves
+    relaxable, ///< vertices without constraints are free
+    meshed     ///< so are, along them, those on constraints that a mesher has inserted
   };
 
   /// Marks the domain by nesting parity if no face is in it yet.
@@ -71,12 +73,17 @@ public:
                                     [](const auto& face) { return face.is_in_domain(); });
     if (!marked) mark_domain_by_parity(cdt);
     input_vertices_ = cdt.number_of_vertices();
+    std::vector<std::vector<Vertex_handle>> chains;
+    if (given == Given::meshed) chains = chains_of_mesh(cdt);
     for (const Vertex_handle v : cdt.finite_vertex_handles()) v->set_constraint(fixed_vertex);
-    if (given == Given::relaxable) free_unconstrained_vertices();
-    for (auto e = cdt.constrained_edges_begin(); e != cdt.constrained_edges_end(); ++e) {
-      const Vertex_handle a = e->first->vertex(cdt.ccw(e->second)), b = e->first->vertex(cdt.cw(e->second));
-      chains_.add(a, b);
+    if (given != Given::input) free_unconstrained_vertices();
+    for (const auto& chain : chains) {
+      for (std::size_t i = 1; i + 1 < chain.size(); ++i)
+        chain[i]->set_constraint(static_cast<int>(chains_.all().size()));
+      chains_.add(chain.front(), chain.back());
     }
+    for (auto e = cdt.constrained_edges_begin(); given != Given::meshed && e != cdt.constrained_edges_end(); ++e)
+      chains_.add(e->first->vertex(cdt.ccw(e->second)), e->first->vertex(cdt.cw(e->second)));
     frame_.add(bbox_);
     renumber();
   }

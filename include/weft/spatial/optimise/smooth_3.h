@@ -16,15 +16,35 @@
 #include <weft/spatial/optimise/smoothers_3.h>
 
 #include <optional>
+#include <type_traits>
 
 namespace weft {
+namespace internal {
+
+/// Whether a smoother moves the vertices by itself, as Energy_smoother_3, instead of saying where each should be.
+template <class Smoother, class = void>
+inline constexpr bool is_whole_smoother_v = false;
+template <class Smoother>
+inline constexpr bool is_whole_smoother_v<Smoother, std::void_t<typename Smoother::Moves_all>> = true;
+
+template <class Restricted, class Smoother>
+Smooth_report_3 run_smoother(Restricted& mesh, const Criteria_guard_3<Restricted>* guard,
+                             const Smooth_options_3& options, const Smoother& smoother)
+{
+  if constexpr (is_whole_smoother_v<Smoother>)
+    return smoother.run(mesh, guard, options);
+  else
+    return Mesh_smoother_3<Restricted, Smoother>(mesh, guard, options, smoother).run();
+}
+
+} // namespace internal
 
 /// Smooths a mesh: its vertices move, those on patches and creases along them, and the triangulation stays Delaunay.
 ///
 /// With `keep_criteria`, elements that violate a criterion, vertices without a topological disk and crease edges that
 /// strayed are no more at the end than at the start.
 /// \tparam Restricted a Restricted_delaunay_3.
-/// \tparam Smoother a smoother, see smoothers_3.h.
+/// \tparam Smoother a smoother, see smoothers_3.h; or Energy_smoother_3, which minimises an energy.
 /// \throws Option_error for options or criteria out of range.
 template <class Restricted, class Smoother = Natural_odt_3>
 Smooth_report_3 smooth_3(Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria,
@@ -36,8 +56,7 @@ Smooth_report_3 smooth_3(Restricted& mesh, const Criteria_3<typename Restricted:
   internal::Lap_timer lap;
   if (options.keep_criteria) guard.emplace(mesh, criteria);
   const double seconds = lap.seconds();
-  auto report =
-      internal::Mesh_smoother_3<Restricted, Smoother>(mesh, guard ? &*guard : nullptr, options, smoother).run();
+  auto report = internal::run_smoother(mesh, guard ? &*guard : nullptr, options, smoother);
   report.guard_seconds += seconds;
   return report;
 }
@@ -49,9 +68,7 @@ Smooth_report_3 smooth_3(Restricted& mesh, internal::Criteria_guard_3<Restricted
 {
   options.check();
   if (options.keep_criteria) guard.tolerate_all(); // else what no move can mend would take them all back
-  return internal::Mesh_smoother_3<Restricted, Smoother>(mesh, options.keep_criteria ? &guard : nullptr, options,
-                                                         smoother)
-      .run();
+  return internal::run_smoother(mesh, options.keep_criteria ? &guard : nullptr, options, smoother);
 }
 
 } // namespace weft
