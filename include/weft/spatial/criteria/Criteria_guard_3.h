@@ -442,10 +442,10 @@ private:
   mutable std::uint64_t era_ = 0;                           ///< of the mesh in this version, for single changes
   mutable int version_ = -1;
   Length_field_3<Kernel> allowed_; ///< see `Criteria_3::deviation`
-  bool moving_only_;
-  Squared_deviation_3 farthest_;  ///< that facets may be
-  double farthest_of_crease_ = 0; ///< that crease edges may be, squared
+  Squared_deviation_3 farthest_;   ///< that facets may be
+  double farthest_of_crease_ = 0;  ///< that crease edges may be, squared
   int threads_;
+  bool moving_only_;
   /// For what lies between the samples of facets.
   static constexpr double closer = 0.85;
   static constexpr std::size_t block_size = 128; ///< facets that are looked at one after the other
