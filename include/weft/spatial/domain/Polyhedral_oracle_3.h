@@ -17,12 +17,11 @@
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/spatial/domain/Acute_edges_3.h>
 #include <weft/spatial/domain/Crease_network_3.h>
-#include <weft/spatial/domain/Crease_shells_3.h>
 #include <weft/spatial/domain/Domain_shape_3.h>
+#include <weft/spatial/domain/Mirror_images_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
 #include <weft/spatial/domain/Patched_surface_3.h>
 #include <weft/spatial/domain/Salient_features_3.h>
-#include <weft/spatial/domain/sheet_pairs_3.h>
 #include <weft/spatial/domain/surface_samples_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
@@ -75,7 +74,9 @@ public:
       throw Domain_error("a surface of 2^30 or more points or triangles", {}, {});
     build_surface();
     build_creases();
-    build_acute_edges();
+    acute_edges_ = internal::Acute_edges_3<K>(complex_, acute_angle);
+    mirror_images_ = internal::Mirror_images_3<K>(complex_, acute_edges_, acute_angle);
+    find_gaps();
     salient_ = internal::Salient_features_3<K>(complex_, {fold_angle, ridge_angle, sharp_angle, 180 - acute_angle});
   }
 
@@ -196,51 +197,30 @@ public:
   bool attract_to_acute_edge(Point& p, double radius) const { return acute_edges_.attract(p, radius); }
 
   /// Whether parts of the boundary meet at small angles, or face each other across a narrow gap.
-  bool has_mirror_images() const { return !acute_edges_.empty() || !shells_.empty() || has_gaps_; }
+  bool has_mirror_images() const { return !mirror_images_.empty(); }
 
   /// Calls `visit(image, where it lies)` for the places where a vertex of the boundary wants a twin: its mirror images
   /// in the planes that bisect acute edges, the points that face it across a gap, and the points of creases that are as
   /// far from a feature vertex as the vertex, where creases meet at a small angle. Only those nearer to the vertex than
   /// `spacing`, its distance to the nearest other vertex. An image within a quarter of the distance to the vertex from
   /// a crease lies on the crease; one as near to a feature vertex isn't needed, and one as far from the boundary
-  /// doesn't exist. Images are off the boundary by up to 1e-11 of its largest coordinate, at random: see
-  /// `off_symmetry()`.
+  /// doesn't exist. Images are off the boundary by up to 1e-11 of its largest coordinate, at random.
   template <class Visit>
   void visit_mirror_images(const Point& p, const Vertex_location_3& at, double spacing, const Visit& visit) const
   {
-    const auto take = [&](const Point& image, const Vertex_location_3& location) {
-      visit(off_symmetry(image, p), location);
-    };
-    if (at.dimension == 1) {
-      const auto points_of = [this](int crease) -> const std::vector<Point>& { return creases_.crease_points(crease); };
-      shells_.visit_images(p, at.index, spacing, points_of, [&](const Point& image, int crease) {
-        take(image, {1, crease});
-      });
-    }
-    const auto take_near = [&](const Point& image) {
-      const double near = 0.0625 * CGAL::squared_distance(p, image);
-      int corner = -1, crease = -1;
-      if (number_of_corners() > 0 && CGAL::squared_distance(corners_.nearest(image, corner), image) < near) return;
-      const Point on_crease = creases_.project(image, crease);
-      if (crease >= 0 && CGAL::squared_distance(on_crease, image) < near) {
-        take(on_crease, {1, crease});
-        return;
-      }
-      const Surface_hit_3<K> hit = closest(image);
-      if (CGAL::squared_distance(hit.point, image) < near) take(hit.point, {2, hit.patch});
-    };
-    acute_edges_.visit_images(p, at.dimension == 2 ? at.index : -1, spacing, take_near);
-    if (has_gaps_ && at.dimension == 2)
-      if (const auto facing =
-              facing_point(p, project_on_patch(p, at.index).triangle, (std::min)(spacing, widest_gap())))
-        take_near(*facing);
+    mirror_images_.visit(
+        surface_, creases_, acute_edges_, p, at, spacing,
+        [this](const Point& of, int patch, double reach) {
+          return facing_point(of, project_on_patch(of, patch).triangle, (std::min)(reach, widest_gap()));
+        },
+        visit);
   }
 
   /// Calls `visit(crease, angle in radians)` for the creases that meet a crease at a small angle.
   template <class Visit>
   void visit_creases_at_small_angles(int crease, const Visit& visit) const
   {
-    shells_.visit_neighbours(crease, visit);
+    mirror_images_.visit_creases_at_small_angles(crease, visit);
   }
 
   /// Vertices that every mesh has to keep.
@@ -324,7 +304,6 @@ private:
   static constexpr double fold_angle = 5, ridge_angle = 30, sharp_angle = 75;
 
   static constexpr double acute_angle = 60; // degrees; from there on refinement ends by itself
-  static constexpr double shell_angle = 29; // the same for creases that meet on a patch
 
   using Triangle = internal::Surface_triangle_3<K>;
 
@@ -361,15 +340,6 @@ private:
   {
     const CGAL::Bbox_3 b = bbox();
     return 0.005 * std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
-  }
-
-  /// Whether there is a narrow gap that is big enough for a sample.
-  void find_gaps()
-  {
-    constexpr std::size_t samples = 1000;
-    visit_spread_points(samples, [&](const Point& p, const auto&, double) {
-      if (!has_gaps_) has_gaps_ = facing_point(p, closest(p).triangle, widest_gap()).has_value();
-    });
   }
 
   /// Distance within which coordinates can't be told apart.
@@ -414,47 +384,15 @@ private:
     creases_ = Crease_network_3<K>(std::move(corners), std::move(creases));
   }
 
-  /// Two triangles that are mirror images of each other have their six vertices on a sphere, and with rounding alone
-  /// to decide, the Delaunay triangulation has flat cells among them, of two vertices and their images. A distance from
-  /// the sphere that is much larger than rounding, and toward the original, so that it leaves those four in a plane,
-  /// leaves none: the ball of four points that are off a common circle, but hardly off a plane, is huge. That is what
-  /// weights would do. \returns the image moved by a random part of 1e-11 of the largest coordinate either way.
-  Point off_symmetry(const Point& image, const Point& original) const
+  /// Narrow gaps that are big enough for a sample count.
+  void find_gaps()
   {
-    std::uint64_t hash = 0; // of the image, in units of a power of two: scaling by another changes nothing
-    for (const double x : {image.x(), image.y(), image.z()}) {
-      const double scaled = std::scalbn(x, -std::ilogb(largest_coordinate_));
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &scaled, sizeof bits);
-      hash = (hash ^ bits) * 0x9e3779b97f4a7c15;
-      hash ^= hash >> 29;
-      hash *= 0xbf58476d1ce4e5b9;
-      hash ^= hash >> 32;
-    }
-    const double shift = 1e-11 * largest_coordinate_ * (2 * static_cast<double>(hash >> 11) * 0x1p-53 - 1);
-    const internal::Xyz_3 to = internal::unit_vector(internal::minus(internal::xyz(original), internal::xyz(image)));
-    return Point(image.x() + shift * to[0], image.y() + shift * to[1], image.z() + shift * to[2]);
-  }
-
-  void build_acute_edges()
-  {
-    acute_edges_ = internal::Acute_edges_3<K>(complex_, acute_angle);
-    std::vector<char> is_at_acute_edge(complex_.points.size(), false);
-    if (!acute_edges_.empty()) {
-      for (const auto& pair : internal::sheet_pairs_3(complex_, acute_angle * internal::radians_per_degree))
-        is_at_acute_edge[pair.source] = is_at_acute_edge[pair.target] = true;
-    }
-    for (const Point& p : complex_.points)
-      largest_coordinate_ = (std::max)({largest_coordinate_, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
-    shells_ = internal::Crease_shells_3<K>(complex_, [&](std::size_t vertex) {
-      return internal::radians_per_degree * (is_at_acute_edge[vertex] ? acute_angle : shell_angle);
+    constexpr std::size_t samples = 1000;
+    bool has_gaps = false;
+    visit_spread_points(samples, [&](const Point& p, const auto&, double) {
+      has_gaps = has_gaps || facing_point(p, closest(p).triangle, widest_gap()).has_value();
     });
-    find_gaps();
-    if (!has_mirror_images()) return;
-    std::vector<internal::Crease_segment_3<K>> corners;
-    for (std::size_t i = 0; i < number_of_corners(); ++i)
-      corners.push_back({corner(i), corner(i), static_cast<int>(i)});
-    corners_ = internal::Segment_hierarchy_3<K>(corners);
+    if (has_gaps) mirror_images_.add_gaps();
   }
 
   Piecewise_smooth_complex_3<K> complex_;
@@ -462,10 +400,7 @@ private:
   Crease_network_3<K> creases_;
   internal::Salient_features_3<K> salient_;
   internal::Acute_edges_3<K> acute_edges_;
-  bool has_gaps_ = false; ///< narrow ones outside, between parts of the boundary that face each other
-  internal::Crease_shells_3<K> shells_;
-  internal::Segment_hierarchy_3<K> corners_; ///< feature vertices as segments; empty without acute edges
-  double largest_coordinate_ = 0;
+  internal::Mirror_images_3<K> mirror_images_;
 };
 
 } // namespace weft
