@@ -39,7 +39,8 @@ using mesh_3_program::Result;
 const std::string before_options =
     "usage: mesh_3 INPUT... [--size [LABEL:]S|auto]... [--size-field FILE] [--gradation K]\n"
     "              [--approximation [LABEL:]E]... [--facet-shape R] [--cell-shape R] [--sharp-angle DEG]\n"
-    "              [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb] [--strict] [--weld PART] [--repair] [--iso VALUE] [--inside above|below] [--labels]\n"
+    "              [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb] [--strict] [--weld "
+    "PART] [--repair] [--iso VALUE] [--inside above|below] [--labels]\n"
     "              [--name LABEL:NAME]...\n"
     "              [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
@@ -61,8 +62,8 @@ struct Request : command_line::Files
   Length size{5, true}, approximation{0.1, true};
   std::vector<std::string> size_texts, approximation_texts, name_texts; ///< as given
   std::string size_field;
-  std::map<int, Length> size_of, approximation_of;                      ///< instead, by label
-  mesh_3_program::Bounds bounds;                                        ///< without lengths, which need the input
+  std::map<int, Length> size_of, approximation_of; ///< instead, by label
+  mesh_3_program::Bounds bounds;                   ///< without lengths, which need the input
   mesh_3_program::Image_options image;
   double iso = 0;
   weft::Feature_options features;
@@ -139,6 +140,7 @@ void check_labels(Request& request)
   auto& sizes = request.size_texts;
   const auto automatic = std::remove(sizes.begin(), sizes.end(), "auto");
   request.bounds.by_features = automatic != sizes.end();
+  if (sizes.end() - automatic > 1) throw Error("--size is given twice");
   sizes.erase(automatic, sizes.end());
   command_line::read_lengths("--size", "label", sizes, false, request.size, request.size_of);
   if (!request.size_field.empty() && sizes.size() == request.size_of.size()) request.size = {100, true};
