@@ -2,8 +2,8 @@
 # programs_compile: whether those programs compile that neither the tests nor .ci/run run. No code is generated, which
 # takes less than half the time.
 
-set(programs_that_run mesh_2 mesh_3 improve_2 improve_3 custom_types heat_conduction gallery_planar gallery_spatial
-  report_inputs measure_mesh_2 measure_mesh_3)
+set(programs_that_run mesh_2 mesh_3 improve_2 improve_3 adapt_3 custom_types heat_conduction gallery_planar
+  gallery_spatial report_inputs measure_mesh_2 measure_mesh_3)
 
 # Sets `result` to the sources of all other programs in a directory and those below.
 function(weft_collect_sources directory result)

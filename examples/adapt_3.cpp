@@ -35,7 +35,8 @@ const std::string before_options =
     "usage: adapt_3 MESH [--size S] [--size-field FILE] [--gradation K] [--approximation E] [--sharp-angle DEG]\n"
     "               [--min-dihedral DEG] [--output FILE]... [--report FILE.json] [--seed N] [--threads N]\n"
     "               [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
-    "Adapts a mesh to other sizes: what fits stays as it is. MESH is a .mesh, .msh, .vtu, or .ele file. Its boundary is\n"
+    "Adapts a mesh to other sizes: what fits stays as it is. MESH is a .mesh, .msh, .vtu, or .ele file. Its boundary "
+    "is\n"
     "the domain. Lengths are in the mesh's units, or with a trailing % in parts of its bounding box diagonal.\n";
 
 const std::string after_options =
@@ -54,8 +55,9 @@ void add_options(command_line::Options& options, Request& request)
 {
   options.operands(request.inputs);
   options.length("--size", "S", false, request.size, "longest edge");
-  options.text("--size-field", "FILE", request.size_field,
-               "sizes in space, at most S: at the vertices of a .vtu, .msh, or .mesh with its .sol,\nor an image of them");
+  options.text(
+      "--size-field", "FILE", request.size_field,
+      "sizes in space, at most S: at the vertices of a .vtu, .msh, or .mesh with its .sol,\nor an image of them");
   options.positive("--gradation", "K", request.gradation, "growth of sizes per unit of distance (default 0.5)");
   options.length("--approximation", "E", false, request.approximation,
                  "distance of facets to the boundary of the mesh (default a tenth of its edges nearby)");
@@ -82,8 +84,7 @@ void check(const command_line::Options& options, Request& request)
 /// The graded sizes that are asked for.
 weft::Criteria_3<K> criteria(const Request& request, const CGAL::Bbox_3& box)
 {
-  const double extent =
-      std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+  const double extent = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   weft::Criteria_3<K> result;
   result.approximation = request.approximation.in(extent);
   if (request.size_field.empty()) {
@@ -92,8 +93,8 @@ weft::Criteria_3<K> criteria(const Request& request, const CGAL::Bbox_3& box)
   }
   weft::Gradation_options_3 options;
   if (request.size.value > 0) options.max_size = request.size.in(extent);
-  result.size = weft::Lipschitz_sizing_3<K>(weft::IO::read_sizing_3<K>(request.size_field), box, request.gradation,
-                                            options);
+  result.size =
+      weft::Lipschitz_sizing_3<K>(weft::IO::read_sizing_3<K>(request.size_field), box, request.gradation, options);
   return result;
 }
 

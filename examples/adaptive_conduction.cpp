@@ -114,7 +114,8 @@ std::vector<double> solve(const Mesh& mesh, std::vector<double> u)
     const Eigen::Matrix4d local = cell.volume * cell.gradients * cell.gradients.transpose();
     for (int i = 0; i < 4; ++i)
       for (int j = 0; j < 4; ++j) {
-        const std::size_t v = mesh.cells[c][static_cast<std::size_t>(i)], w = mesh.cells[c][static_cast<std::size_t>(j)];
+        const std::size_t v = mesh.cells[c][static_cast<std::size_t>(i)],
+                          w = mesh.cells[c][static_cast<std::size_t>(j)];
         if (unknown[v] < 0) continue;
         if (unknown[w] < 0)
           load[unknown[v]] -= local(i, j) * u[w];
@@ -183,7 +184,7 @@ std::vector<double> estimated_errors(const Mesh& mesh, const std::vector<double>
 std::vector<double> wanted_sizes(const Mesh& mesh, const std::vector<double>& errors, double vertices)
 {
   std::vector<double> sum(mesh.points.size(), 0), weight(mesh.points.size(), 0);
-  double integral = 0; // of sizes^-3, but for a factor
+  double integral = 0;              // of sizes^-3, but for a factor
   constexpr double per_cube = 0.65; // volume of a cell whose longest edge is 1, times cells a vertex
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const double volume = Cell(mesh, c).volume, density = errors[c] / std::pow(volume, 5. / 3);

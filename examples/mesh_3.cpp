@@ -143,6 +143,7 @@ void check_labels(Request& request)
   auto& sizes = request.size_texts;
   const auto automatic = std::remove(sizes.begin(), sizes.end(), "auto");
   request.bounds.by_features = automatic != sizes.end();
+  if (sizes.end() - automatic > 1) throw Error("--size is given twice");
   sizes.erase(automatic, sizes.end());
   command_line::read_lengths("--size", "label", sizes, false, request.size, request.size_of);
   if (!request.size_field.empty() && sizes.size() == request.size_of.size()) request.size = {100, true};

@@ -173,8 +173,7 @@ TEST_CASE("solutions travel: linear functions exactly, and integrals if they hav
   }
   const auto carried = weft::transfer_3(block().mesh, linear, to);
   for (std::size_t v = 0; v < to.points.size(); ++v)
-    REQUIRE(carried[v] ==
-            Approx(1 + to.points[v].x() - 2 * to.points[v].y() + 3 * to.points[v].z()).margin(1e-9));
+    REQUIRE(carried[v] == Approx(1 + to.points[v].x() - 2 * to.points[v].y() + 3 * to.points[v].z()).margin(1e-9));
   const auto kept = weft::transfer_3(block().mesh, peak, to, weft::Transfer::conserving);
   CHECK(integral(to, kept) == Approx(integral(block().mesh, peak)).epsilon(1e-9));
   CHECK(*std::max_element(kept.begin(), kept.end()) <= *std::max_element(peak.begin(), peak.end()));

@@ -100,6 +100,32 @@ TEST_CASE("without options the mesh is as fine as the help says, in parts of the
   CHECK(quality(folder.read("same.json")) == quality(folder.read("r.json")));
 }
 
+TEST_CASE("sizes come from features and from files, and grade")
+{
+  const Folder folder("sizes");
+  folder.write("plate.off", "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 .2\n1 0 .2\n1 1 .2\n0 1 .2\n4 0 3 2 1\n"
+                            "4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n4 4 5 6 7\n");
+  const auto longest = [&](const std::string& arguments) {
+    const Outcome outcome = folder.run(arguments + " --report r.json --quiet");
+    CHECK(outcome.status == 0);
+    return number(folder.read("r.json"), "longest_edge");
+  };
+  CHECK(longest("plate.off --size 0.6") > 0.3);
+  CHECK(longest("plate.off --size 0.6 --size auto") < 0.2); // half of the thickness on its faces
+
+  REQUIRE(folder.run("cube.off --size 0.4 --output background.mesh --quiet").status == 0);
+  const std::size_t n = count_in_medit(folder.read("background.mesh"), "Vertices");
+  std::string sizes = "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n" + std::to_string(n) + "\n1 1\n";
+  for (std::size_t v = 0; v < n; ++v) sizes += "0.2\n";
+  folder.write("background.sol", sizes + "End\n");
+  CHECK(longest("cube.off --size-field background.mesh") <= 0.2);
+  CHECK(longest("cube.off --size-field background.sol --size 0.15") <= 0.15);
+  folder.write("background.sol", sizes.substr(0, sizes.size() - 20)); // cut off
+  const Outcome outcome = folder.run("cube.off --size-field background.mesh --output m.mesh");
+  CHECK(outcome.status == 1);
+  CHECK(is_one_line(outcome.err));
+}
+
 TEST_CASE("creases are found by the angle that was asked for")
 {
   const Folder folder("angle");
@@ -123,6 +149,9 @@ TEST_CASE("bad usage gives status 1, one line on stderr and no file")
                                         "cube.off --size 5%%",
                                         "cube.off --size inf",
                                         "cube.off --approximation -1%",
+                                        "cube.off --gradation 0",
+                                        "cube.off --size auto --size auto",
+                                        "cube.off --size-field missing.vtu",
                                         "cube.off --facet-shape 0.9",
                                         "cube.off --cell-shape nan",
                                         "cube.off --sharp-angle 181",

@@ -9,6 +9,7 @@
 #include <weft/errors.h>
 #include <weft/IO/read_sizing_3.h>
 #include <weft/IO/write_mesh_3.h>
+#include <weft/IO/write_solution_3.h>
 #include <weft/sizing/Combined_sizing.h>
 #include <weft/sizing/Grid_sizing.h>
 #include <weft/sizing/Lipschitz_sizing_3.h>
@@ -206,7 +207,7 @@ TEST_CASE("features are thicknesses and gaps, not edges")
     options.max_size = 1;
     return weft::Feature_sizing_3<K>(oracle_of(surface), 0.5, options)(p);
   };
-  const auto plate = surfaces::box(8, 8, 1); // unit cubes
+  const auto plate = surfaces::box(8, 8, 1);              // unit cubes
   CHECK(size_at(plate, Point(4, 4, 1), 2) <= 0.5 + 0.05); // half a step between samples, and k
   CHECK(size_at(plate, Point(4, 4, 1), 2) >= 0.35);
   CHECK(size_at(plate, Point(4, 4, 0), 4) <= 0.25 + 0.05);
@@ -257,9 +258,10 @@ TEST_CASE("files of sizes are read")
   check(weft::IO::read_sizing_3<K>("sizes.mesh"));
   check(weft::IO::read_sizing_3<K>("sizes.sol"));
 
-  std::ofstream("sizes.msh") << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
-                                "$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n$NodeData\n1\n\"size\"\n1\n0\n"
-                                "3\n0\n1\n4\n1 0.5\n3 2\n2 1\n4 4\n$EndNodeData\n";
+  std::ofstream("sizes.msh")
+      << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+         "$EndNodes\n$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n$NodeData\n1\n\"size\"\n1\n0\n"
+         "3\n0\n1\n4\n1 0.5\n3 2\n2 1\n4 4\n$EndNodeData\n";
   check(weft::IO::read_sizing_3<K>("sizes.msh"));
   CHECK_THROWS_AS(weft::IO::read_sizing_3<K>("sizes.msh", "other"), weft::File_error);
 
@@ -275,4 +277,23 @@ TEST_CASE("files of sizes are read")
   check(weft::IO::read_sizing_3<K>("sizes.vtu"));
   CHECK_THROWS_AS(weft::IO::read_sizing_3<K>("sizes.vtu", "size"), weft::File_error);
   CHECK_THROWS_AS(weft::IO::read_sizing_3<K>("missing.mesh"), weft::File_error);
+}
+
+TEST_CASE("solutions that are written read back to the last bit")
+{
+  const auto mesh = fixtures::box(2).mesh;
+  Random_points random;
+  weft::Mesh_solution_3 solution;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) solution.at_vertices["heat"].push_back(random.number(0.1, 1));
+  solution.in_cells["error"].assign(mesh.cells.size(), 0.25);
+  for (const std::string name : {"heat.vtu", "heat.msh", "heat.mesh"}) {
+    CAPTURE(name);
+    weft::IO::write_solution_3(name, mesh, solution);
+    CHECK(weft::IO::read_solution(name) == solution.at_vertices["heat"]);
+    CHECK(weft::IO::read_tetrahedral_mesh<K>(name).mesh.cells == mesh.cells);
+  }
+  CHECK(weft::IO::read_solution("heat.vtu", "heat") == solution.at_vertices["heat"]);
+  CHECK_THROWS_AS(weft::IO::write_solution_3("heat.off", mesh, solution), weft::File_error);
+  solution.at_vertices["heat"].pop_back();
+  CHECK_THROWS_AS(weft::IO::write_solution_3("heat.vtu", mesh, solution), weft::Option_error);
 }

@@ -29,7 +29,8 @@ namespace weft {
 ///
 /// All that `make_mesh_3()` promises holds for the result, too. Vertices stay where every element around them does;
 /// those that lie on the boundary keep their place on it.
-/// \param mesh of the same oracle, as `tetrahedral_mesh()` returns it; has to be Delaunay as weft's meshes are, or it is
+/// \param mesh of the same oracle, as `tetrahedral_mesh()` returns it; has to be Delaunay as weft's meshes are, or it
+/// is
 ///   made so.
 /// \param oracle has to outlive the result.
 /// \param criteria with the new size; any callable is one, but it is asked some thousand times a vertex: tabulate one

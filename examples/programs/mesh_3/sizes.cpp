@@ -32,9 +32,8 @@ weft::Criteria_3<K> with_sizes(const Oracle& oracle, weft::Criteria_3<K> criteri
   if (bounds.by_features) {
     weft::Feature_sizing_options_3 options;
     options.max_size = most;
-    criteria.size = [field = weft::Feature_sizing_3<K>(oracle, k, options), other = criteria.size](const K::Point_3& p) {
-      return std::min(field(p), other(p));
-    };
+    criteria.size = [field = weft::Feature_sizing_3<K>(oracle, k, options),
+                     other = criteria.size](const K::Point_3& p) { return std::min(field(p), other(p)); };
   }
   return weft::grade_criteria_3(oracle, criteria, k);
 }

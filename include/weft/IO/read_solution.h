@@ -32,7 +32,8 @@ inline std::vector<double> vtu_solution(const std::string& filename, const std::
   if (chosen.empty() && fitting.size() == 1) chosen = fitting.front();
   if (chosen.empty())
     throw File_error(filename, 0,
-                     fitting.empty() ? "has no point data" : "has several arrays of point data, and none is called 'size'");
+                     fitting.empty() ? "has no point data"
+                                     : "has several arrays of point data, and none is called 'size'");
   auto values = arrays.numbers("PointData", chosen);
   if (values.size() != arrays.number_of_points())
     throw File_error(filename, 0, "the point data '" + chosen + "' isn't one number a point");

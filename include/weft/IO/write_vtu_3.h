@@ -13,6 +13,7 @@
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/internal/vtu_array.h>
 #include <weft/spatial/mesh/Mesh_names_3.h>
+#include <weft/spatial/mesh/Mesh_solution_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <array>
@@ -25,7 +26,7 @@ namespace weft {
 namespace internal {
 
 template <class K>
-WEFT_COLD void write_vtu_points(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh)
+WEFT_COLD void write_vtu_points(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const Mesh_solution_3& solution)
 {
   out << "      <Points>\n        <DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" "
          "format=\"ascii\">\n";
@@ -41,6 +42,11 @@ WEFT_COLD void write_vtu_points(Text_writer& out, const Tetrahedral_mesh_3<K>& m
   begin_vtu_array(out, "Int32", "index");
   for (const auto& location : mesh.locations) out << location.index << '\n';
   end_vtu_array(out);
+  for (const auto& [name, values] : solution.at_vertices) {
+    begin_vtu_array(out, "Float64", name);
+    for (const double value : values) out << value << '\n';
+    end_vtu_array(out);
+  }
   out << "      </PointData>\n";
 }
 
@@ -91,6 +97,18 @@ WEFT_COLD void write_vtu_cells(Text_writer& out, const Tetrahedral_mesh_3<K>& me
   out << "      </Cells>\n";
 }
 
+/// Numbers in cells; 0 on all other elements.
+template <class K>
+WEFT_COLD void write_vtu_cell_data(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const Mesh_solution_3& solution)
+{
+  for (const auto& [name, values] : solution.in_cells) {
+    begin_vtu_array(out, "Float64", name);
+    for (const double value : values) out << value << '\n';
+    for (std::size_t i = mesh.facets.size() + mesh.edges.size() + mesh.corners.size(); i > 0; --i) out << "0\n";
+    end_vtu_array(out);
+  }
+}
+
 /// One number per element: `tags` for the elements of one kind, which have so many vertices, `other` for the rest.
 template <class K, class Tags>
 WEFT_COLD void write_vtu_tags(Text_writer& out, const Tetrahedral_mesh_3<K>& mesh, const std::string& name,
@@ -126,10 +144,12 @@ namespace IO {
 
 /// Writes a mesh as a .vtu file. Facets are counterclockwise seen from outside.
 /// \param names become field data: `named_subdomains` with the numbers, `subdomain_names`, and the same of patches.
+/// \param solution becomes point data and cell data of the tetrahedra.
 /// \throws File_error if the file can't be written.
 template <class K>
 WEFT_COLD void write_vtu(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh,
-                         const Mesh_names_3& names = Mesh_names_3())
+                         const Mesh_names_3& names = Mesh_names_3(),
+                         const Mesh_solution_3& solution = Mesh_solution_3())
 {
   internal::Text_writer out(filename);
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -142,7 +162,7 @@ WEFT_COLD void write_vtu(const std::string& filename, const Tetrahedral_mesh_3<K
   }
   out << "    <Piece NumberOfPoints=\"" << mesh.points.size() << "\" NumberOfCells=\""
       << mesh.cells.size() + mesh.facets.size() + mesh.edges.size() + mesh.corners.size() << "\">\n";
-  internal::write_vtu_points(out, mesh);
+  internal::write_vtu_points(out, mesh, solution);
   internal::write_vtu_cells(out, mesh);
   std::vector<int> features;
   for (const std::size_t v : mesh.corners) features.push_back(mesh.locations[v].index);
@@ -151,6 +171,7 @@ WEFT_COLD void write_vtu(const std::string& filename, const Tetrahedral_mesh_3<K
   internal::write_vtu_tags(out, mesh, "patch", 3, mesh.patches, -1);
   internal::write_vtu_tags(out, mesh, "crease", 2, mesh.creases, -1);
   internal::write_vtu_tags(out, mesh, "feature", 1, features, -1);
+  internal::write_vtu_cell_data(out, mesh, solution);
   out << "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n";
   out.close();
 }

@@ -20,8 +20,8 @@
 
 namespace weft {
 
-/// Sizing field between the nodes of a grid; outside of it, the value at the nearest point of the grid. Copies share the
-/// values. Safe to read from many threads. \tparam d the dimension, 2 or 3.
+/// Sizing field between the nodes of a grid; outside of it, the value at the nearest point of the grid. Copies share
+/// the values. Safe to read from many threads. \tparam d the dimension, 2 or 3.
 template <int d>
 class Grid_sizing
 {
@@ -30,7 +30,8 @@ public:
   /// \param spacing of the nodes, in the input's units.
   /// \param origin the first node.
   /// \param values edge lengths at the nodes, x running fastest, in the input's units.
-  /// \throws Option_error for a size that isn't positive and finite, a spacing that isn't, or if there isn't a value for
+  /// \throws Option_error for a size that isn't positive and finite, a spacing that isn't, or if there isn't a value
+  /// for
   ///   each node.
   Grid_sizing(const std::array<std::size_t, d>& size, const std::array<double, d>& spacing,
               const std::array<double, d>& origin, std::vector<double> values)
@@ -39,7 +40,8 @@ public:
     std::size_t n = 1;
     for (std::size_t k = 0; k < d; ++k) {
       n *= size[k];
-      if (!(spacing[k] > 0) || !std::isfinite(spacing[k])) throw Option_error("Grid_sizing: the spacing must be positive");
+      if (!(spacing[k] > 0) || !std::isfinite(spacing[k]))
+        throw Option_error("Grid_sizing: the spacing must be positive");
     }
     if (n == 0 || n != values.size()) throw Option_error("Grid_sizing: one size per node is needed");
     for (const double value : values)

@@ -67,7 +67,8 @@ public:
   /// \param field callable, point -> size in the input's units; infinite for any.
   /// \param box where it is tabulated; elsewhere the size is that at the nearest point of the box.
   /// \param k growth of the size per unit of distance, >= 0. With 0 the field is the smallest size everywhere.
-  /// \throws Option_error for a NaN or a negative number, min_size > max_size, a field that isn't positive, an empty box,
+  /// \throws Option_error for a NaN or a negative number, min_size > max_size, a field that isn't positive, an empty
+  /// box,
   ///   or if nothing bounds the size.
   template <class Field>
   Lipschitz_sizing_3(const Field& field, const CGAL::Bbox_3& box, double k,
@@ -78,7 +79,8 @@ public:
   /// The field of sizes at points alone; parameters as above.
   Lipschitz_sizing_3(const std::vector<Source>& sources, const CGAL::Bbox_3& box, double k,
                      const Gradation_options_3& options = Gradation_options_3())
-      : Lipschitz_sizing_3([](const Point&) { return std::numeric_limits<double>::infinity(); }, sources, box, k, options)
+      : Lipschitz_sizing_3([](const Point&) { return std::numeric_limits<double>::infinity(); }, sources, box, k,
+                           options)
   {}
 
   /// Both at once; parameters as above. O(n log n) in sources and cubes.
@@ -89,9 +91,7 @@ public:
   {
     options.check();
     if (!(k >= 0) || !std::isfinite(k)) throw Option_error("the growth k of a sizing field must be finite and >= 0");
-    const auto clamped = [&](double size) {
-      return (std::min)((std::max)(size, options.min_size), options.max_size);
-    };
+    const auto clamped = [&](double size) { return (std::min)((std::max)(size, options.min_size), options.max_size); };
     std::vector<internal::Size_octree_builder_3::Source> points;
     for (const Source& s : sources) {
       if (!(s.size > 0)) throw Option_error("sizes at points must be positive");

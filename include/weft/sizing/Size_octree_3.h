@@ -25,7 +25,7 @@ public:
   std::array<double, 3> low{};         ///< corner of the box
   double cube = 1;                     ///< edge of the roots
   std::array<std::uint32_t, 3> size{}; ///< how many roots there are along each axis
-  std::vector<std::int32_t> nodes;     ///< index of the first of eight children, or ~index of a leaf; the roots come first
+  std::vector<std::int32_t> nodes; ///< index of the first of eight children, or ~index of a leaf; the roots come first
   std::vector<Leaf> leaves;
   std::vector<double> sides; ///< of the leaves
 
@@ -53,13 +53,14 @@ public:
     return value(leaves[static_cast<std::size_t>(~node)], t);
   }
 
-  /// Length of the steepest gradient. That of a trilinear function is steepest at a corner of its cube, where it is made
-  /// of the differences along three edges.
+  /// Length of the steepest gradient. That of a trilinear function is steepest at a corner of its cube, where it is
+  /// made of the differences along three edges.
   double max_gradient() const
   {
     double steepest = 0;
     for (std::size_t i = 0; i < leaves.size(); ++i)
-      for (std::size_t c = 0; c < 8; ++c) steepest = std::max(steepest, std::sqrt(squared_rise(leaves[i], c)) / sides[i]);
+      for (std::size_t c = 0; c < 8; ++c)
+        steepest = std::max(steepest, std::sqrt(squared_rise(leaves[i], c)) / sides[i]);
     return steepest;
   }
 

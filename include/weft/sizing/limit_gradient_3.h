@@ -32,7 +32,8 @@ public:
     march();
     lower_masters();
     constexpr int most_sweeps = 60;
-    for (int sweep = 0; sweep < most_sweeps && run_sweep(); ++sweep) {}
+    for (int sweep = 0; sweep < most_sweeps && run_sweep(); ++sweep) {
+    }
     contract();
   }
 
@@ -94,7 +95,8 @@ private:
     std::vector<std::pair<double, Index>> order;
     for (std::size_t i = 0; i < octree_.corners.size(); ++i) {
       const auto u = values(i);
-      if (is_steep(u, octree_.side(i))) order.emplace_back(*std::min_element(u.begin(), u.end()), static_cast<Index>(i));
+      if (is_steep(u, octree_.side(i)))
+        order.emplace_back(*std::min_element(u.begin(), u.end()), static_cast<Index>(i));
     }
     std::sort(order.begin(), order.end());
     for (const auto& entry : order)
@@ -117,8 +119,8 @@ private:
     return false;
   }
 
-  /// Lowers those of a corner and its three neighbours whose lowering flattens the gradient there, each by as much as it
-  /// helps, which changes the sizes least.
+  /// Lowers those of a corner and its three neighbours whose lowering flattens the gradient there, each by as much as
+  /// it helps, which changes the sizes least.
   void flatten(Index leaf, std::size_t c)
   {
     const auto& corners = octree_.corners[leaf];

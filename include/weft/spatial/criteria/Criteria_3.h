@@ -46,7 +46,8 @@ public:
 
   Length_field_3(double constant = 0) : constant_(constant) {} // NOLINT: a number is a field
   template <class Field, class = std::enable_if_t<std::is_invocable_r_v<double, const Field&, const Point&>>>
-  Length_field_3(Field field) : constant_(-1), smallest_(internal::smallest_of(field, 0)), field_(std::move(field)) // NOLINT: so is a callable
+  Length_field_3(Field field)
+      : constant_(-1), smallest_(internal::smallest_of(field, 0)), field_(std::move(field)) // NOLINT: so is a callable
   {}
   /// \cond
   // Only says what is wrong with any other object.

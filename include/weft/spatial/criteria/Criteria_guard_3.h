@@ -15,6 +15,7 @@
 #include <weft/spatial/criteria/Facet_memory_3.h>
 #include <weft/spatial/criteria/facet_turn_3.h>
 #include <weft/spatial/mesh/circumcenter_3.h>
+#include <weft/spatial/restricted/has_free_vertex_3.h>
 #include <weft/spatial/restricted/topological_disk_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -272,19 +273,12 @@ private:
   {
     Part all;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles())
-      if (may_change(c)) all.cells.push_back(c);
+      if (!moving_only_ || has_free_vertex(mesh_, c)) all.cells.push_back(c);
     for (std::size_t f = 0; f < mesh_.facets().size(); ++f)
-      if (mesh_.facets()[f].cell != Cell_handle() && may_change(mesh_.facets()[f].cell))
+      if (const Cell_handle c = mesh_.facets()[f].cell;
+          c != Cell_handle() && (!moving_only_ || has_free_vertex(mesh_, c)))
         all.facets.push_back(static_cast<int>(f));
     return all;
-  }
-
-  bool may_change(Cell_handle c) const
-  {
-    if (!moving_only_) return true;
-    for (int i = 0; i < 4; ++i)
-      if (c->vertex(i)->id() >= 0 && !mesh_.is_fixed(c->vertex(i))) return true;
-    return false;
   }
 
   void tolerate(const Part& part)

@@ -96,7 +96,8 @@ template <class K>
 class Conserving_transfer_3
 {
 public:
-  Conserving_transfer_3(const Tetrahedral_mesh_3<K>& from, const std::vector<double>& values) : from_(from), values_(values)
+  Conserving_transfer_3(const Tetrahedral_mesh_3<K>& from, const std::vector<double>& values)
+      : from_(from), values_(values)
   {
     std::vector<Box_3> boxes(from.cells.size());
     for (std::size_t c = 0; c < boxes.size(); ++c)
@@ -195,8 +196,8 @@ private:
 /// Carries a function that is linear on the cells of a mesh over to the vertices of another one.
 /// \param values at the vertices of `from`.
 /// \param how with Transfer::conserving, the integral of the result over `to` is that of the function over `from` but
-///   for rounding, where both cover the same domain; of a part that only `to` covers, the values are those at the nearest
-///   points of `from`.
+///   for rounding, where both cover the same domain; of a part that only `to` covers, the values are those at the
+///   nearest points of `from`.
 /// \returns a value for each vertex of `to`, none outside of the range of the old ones.
 /// \throws Option_error unless there is a value for each vertex; Domain_error if a mesh has no cells. O(n log n).
 template <class K>

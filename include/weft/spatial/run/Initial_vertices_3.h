@@ -28,8 +28,8 @@ struct Initial_vertices_3
   /// for.
   double facet_shape_in_the_end = 0, cell_shape_in_the_end = 0;
   double smoothing_share = 1; ///< most of the time left that smoothing may take
-  /// Whether they are those of a mesh of the same domain, so that all can be inserted at once, and what refinement leaves
-  /// alone stays as it is.
+  /// Whether they are those of a mesh of the same domain, so that all can be inserted at once, and what refinement
+  /// leaves alone stays as it is.
   bool is_adaptation = false;
   std::vector<char> changed; ///< then, by vertex, whether it is to be smoothed all the same
 };

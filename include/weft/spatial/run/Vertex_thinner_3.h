@@ -152,9 +152,8 @@ private:
     for (std::size_t f = 0; f < mesh_.facets.size(); ++f)
       for (std::size_t i = 0; i < 3; ++i)
         sides.push_back({sorted<2>({mesh_.facets[f][i], mesh_.facets[f][(i + 1) % 3]}), f});
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-      return a.edge != b.edge ? a.edge < b.edge : a.facet < b.facet;
-    });
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.facet < b.facet; });
     for (std::size_t i = 1; i < sides.size(); ++i) {
       const std::size_t f = sides[i - 1].facet, g = sides[i].facet;
       if (sides[i - 1].edge != sides[i].edge || mesh_.patches[f] != mesh_.patches[g]) continue;

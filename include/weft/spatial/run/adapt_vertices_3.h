@@ -28,7 +28,8 @@ bool is_mesh_of(const Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle)
                               : at.dimension == 1 ? oracle.number_of_creases()
                               : at.dimension == 2 ? static_cast<std::size_t>(oracle.number_of_patches())
                                                   : ~std::size_t(0);
-    if (at.dimension < 0 || at.dimension > 3 || at.index < 0 || static_cast<std::size_t>(at.index) >= parts) return false;
+    if (at.dimension < 0 || at.dimension > 3 || at.index < 0 || static_cast<std::size_t>(at.index) >= parts)
+      return false;
     if (at.dimension != 0) continue;
     if (mesh.points[v] != oracle.corner(static_cast<std::size_t>(at.index))) return false;
     has_corner[static_cast<std::size_t>(at.index)] = true;

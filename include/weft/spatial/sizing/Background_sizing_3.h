@@ -54,8 +54,7 @@ public:
   {}
 
   /// The same of a CGAL triangulation of dimension 3. \param size callable: vertex handle -> size.
-  template <class Triangulation, class Size_of_vertex,
-            class Vertex_handle = typename Triangulation::Vertex_handle>
+  template <class Triangulation, class Size_of_vertex, class Vertex_handle = typename Triangulation::Vertex_handle>
   Background_sizing_3(const Triangulation& triangulation, const Size_of_vertex& size)
       : Background_sizing_3(Arrays(triangulation, size))
   {}
@@ -89,7 +88,8 @@ private:
     std::vector<std::array<std::size_t, 4>> cells;
     std::vector<double> sizes;
   };
-  explicit Background_sizing_3(Arrays arrays) : Background_sizing_3(arrays.points, arrays.cells, std::move(arrays.sizes))
+  explicit Background_sizing_3(Arrays arrays)
+      : Background_sizing_3(arrays.points, arrays.cells, std::move(arrays.sizes))
   {}
 
   std::shared_ptr<const Data> data_;

@@ -5,13 +5,13 @@
 // Alliez, Cohen-Steiner, Yvinec and Desbrun, "Variational tetrahedral meshing" (2005); Tournois 2009, sec. 3.2.1.
 //
 // The local feature size of a smooth surface is its distance to the medial axis, which is 0 at every edge of a
-// polyhedron. Taken here: lfs(s) is the radius of the smaller of the two balls that touch the boundary in s, one on each
-// side, and again in another point, as far as that other point is one of another sheet: it is seen from the center at
-// least 45 degrees away from s, and doesn't lie on a patch that meets that of s in a crease or a feature vertex. Half of
-// a thickness, half of a gap and the radius of a curve that turns by 45 degrees are feature sizes then; creases and
-// smaller folds count for nothing, as in the plane features that share a point don't. The balls are found by shrinking
-// (Ma, Bae and Choi, "3D medial axis point approximation using nearest neighbors and the normal field", 2012), and the
-// angle is as in Peters, "Geographical point cloud modelling with the 3D medial axis transform" (2018).
+// polyhedron. Taken here: lfs(s) is the radius of the smaller of the two balls that touch the boundary in s, one on
+// each side, and again in another point, as far as that other point is one of another sheet: it is seen from the center
+// at least 45 degrees away from s, and doesn't lie on a patch that meets that of s in a crease or a feature vertex.
+// Half of a thickness, half of a gap and the radius of a curve that turns by 45 degrees are feature sizes then; creases
+// and smaller folds count for nothing, as in the plane features that share a point don't. The balls are found by
+// shrinking (Ma, Bae and Choi, "3D medial axis point approximation using nearest neighbors and the normal field",
+// 2012), and the angle is as in Peters, "Geographical point cloud modelling with the 3D medial axis transform" (2018).
 
 #ifndef WEFT_SPATIAL_SIZING_FEATURE_SIZING_3_H
 #define WEFT_SPATIAL_SIZING_FEATURE_SIZING_3_H
@@ -66,8 +66,7 @@ public:
   /// \param k growth of the size per unit of distance, >= 0.
   /// \throws Option_error for arguments out of range.
   template <class Oracle>
-  Feature_sizing_3(const Oracle& oracle, double k,
-                   const Feature_sizing_options_3& options = Feature_sizing_options_3())
+  Feature_sizing_3(const Oracle& oracle, double k, const Feature_sizing_options_3& options = Feature_sizing_options_3())
       : field_(graded(oracle, k, options))
   {}
 
@@ -96,15 +95,14 @@ private:
     const std::set<std::pair<int, int>> meeting = meeting_patches(oracle);
     const double reach = options.cells / 2 * gradation.max_size;
     std::vector<typename Lipschitz_sizing_3<K>::Source> sources;
-    oracle.visit_samples(diagonal / options.samples,
-                         [&](const Point& p, int patch, const std::array<double, 3>& normal) {
-                           if (normal == std::array<double, 3>()) return;
-                           double radius = reach;
-                           for (const double side : {-1., 1.})
-                             radius = shrunk(oracle, p, patch, {{side * normal[0], side * normal[1], side * normal[2]}},
-                                             meeting, radius);
-                           if (radius < reach) sources.push_back({p, 2 * radius / options.cells});
-                         });
+    oracle.visit_samples(diagonal / options.samples, [&](const Point& p, int patch,
+                                                         const std::array<double, 3>& normal) {
+      if (normal == std::array<double, 3>()) return;
+      double radius = reach;
+      for (const double side : {-1., 1.})
+        radius = shrunk(oracle, p, patch, {{side * normal[0], side * normal[1], side * normal[2]}}, meeting, radius);
+      if (radius < reach) sources.push_back({p, 2 * radius / options.cells});
+    });
     const double largest = gradation.max_size;
     return Lipschitz_sizing_3<K>([largest](const Point&) { return largest; }, sources, b, k, gradation);
   }
@@ -120,8 +118,7 @@ private:
         for (const int q : patches)
           if (p != q) pairs.emplace(p, q);
     };
-    for (std::size_t c = 0; c < oracle.number_of_creases(); ++c)
-      add(incidence.patches_of_crease(static_cast<int>(c)));
+    for (std::size_t c = 0; c < oracle.number_of_creases(); ++c) add(incidence.patches_of_crease(static_cast<int>(c)));
     for (std::size_t c = 0; c < oracle.number_of_corners(); ++c) {
       std::set<int> patches;
       for (const int crease : incidence.creases_of_corner(static_cast<int>(c)))
