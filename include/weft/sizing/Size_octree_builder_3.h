@@ -126,6 +126,8 @@ public:
   std::vector<Hanging> hanging;
 
 private:
+  using Octree_cubes_3::point;
+
   template <class Field>
   double value_at(const Field& field, const Place& p)
   {
