@@ -8,8 +8,10 @@
 
 #include <weft/energy/odt_energy_3.h>
 #include <weft/make_mesh_3.h>
+#include <weft/spatial/optimise/optimise_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
 #include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/run/Delaunay_mesh_3.h>
 #include <weft/spatial/solve/minimise_energy_3.h>
 
 #include <catch2/catch.hpp>
@@ -17,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <random>
 #include <vector>
 
 namespace {
@@ -49,7 +52,6 @@ TEST_CASE("solvers lower the energy in every sweep and keep to the domain")
   options.max_sweeps = 12;
   weft::Smooth_options_3 smoothing;
   smoothing.uniform = true;
-  smoothing.keep_criteria = false;
   const auto report = weft::minimise_energy_3(mesh, criteria, options, smoothing);
   REQUIRE(report.energies.size() > 3);
   CHECK(std::is_sorted(report.energies.rbegin(), report.energies.rend()));
@@ -86,6 +88,71 @@ TEST_CASE("with the criteria kept, nothing that a solver makes is bad")
   const Mesh result = weft::tetrahedral_mesh(mesh);
   CHECK(weft::check_criteria_3(result, criteria).ok());
   CHECK(3 * cells_below(mesh, 12) < before);
+}
+
+TEST_CASE("free sweeps of the metric's energy leave few slivers")
+{
+  const Oracle oracle = oracle_of(surfaces::sphere(3));
+  const Criteria criteria = criteria_of(0.25, 0.02);
+  auto mesh = weft::make_mesh_3(oracle, criteria, refinement()).restricted;
+  const std::size_t before = cells_below(mesh, 10);
+  REQUIRE(before > 10);
+  weft::Smooth_options_3 smoothing;
+  smoothing.keep_criteria = false;
+  weft::Solver_options options;
+  options.max_sweeps = 40;
+  const auto report = weft::minimise_energy_3(mesh, criteria, options, smoothing);
+  CHECK(std::is_sorted(report.energies.rbegin(), report.energies.rend()));
+  CHECK(weft::check_restricted_3(mesh).ok());
+  CHECK(5 * cells_below(mesh, 10) < before);
+}
+
+/// A mesh of a cube as others may make it: interior vertices moved at random, cells as they were, tags of one's own.
+Mesh others_mesh()
+{
+  const Oracle oracle = oracle_of(surfaces::cube());
+  Mesh mesh = weft::tetrahedral_mesh(weft::make_mesh_3(oracle, criteria_of(0.2, 0.01), refinement()).restricted);
+  std::mt19937 random(1);
+  const auto shift = [&random] { return 0.03 * (random() / 4294967296.0 - 0.5); };
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (mesh.locations[v].dimension < 3) continue;
+    const Point &p = mesh.points[v];
+    const double x = p.x() + shift(), y = p.y() + shift(), z = p.z() + shift();
+    mesh.points[v] = Point(x, y, z);
+  }
+  for (int& patch : mesh.patches) patch += 7;
+  for (int& subdomain : mesh.subdomains) subdomain = 5;
+  return mesh;
+}
+
+TEST_CASE("a mesh of any origin can be optimised by any smoother")
+{
+  const Mesh given = others_mesh();
+  weft::Delaunay_mesh_3<K> delaunay(given);
+  CHECK(delaunay.report().bad() == 0);
+  CHECK(weft::check_restricted_3(delaunay.restricted()).ok());
+  CHECK(delaunay.restricted().vertices().size() < 1.05 * static_cast<double>(given.points.size()));
+  weft::Optimise_options_3 options;
+  options.coarsen = false;
+  options.perturbation.target = 15;
+  weft::Optimise_report_3 report;
+  const int way = GENERATE(0, 1, 2);
+  if (way == 0) report = weft::optimise_3(delaunay.restricted(), delaunay.criteria(), options);
+  if (way == 1) report = weft::optimise_3(delaunay.restricted(), delaunay.criteria(), options, weft::Lloyd_3());
+  if (way == 2)
+    report = weft::optimise_3(delaunay.restricted(), delaunay.criteria(), options, weft::Energy_smoother_3());
+  CHECK(report.coarsening.tried == 0);
+  CHECK(report.smoothing.sweeps > 0);
+  CHECK(report.perturbation.after >= 15);
+  const Mesh mesh = delaunay.mesh();
+  CHECK(volume_of_cells(mesh) == Approx(1));
+  CHECK(weft::validate_3(mesh).ok());
+  CHECK(weft::measure_quality_3(mesh).smallest_dihedral.degrees >= 15 - 1e-6);
+  CHECK(*std::min_element(mesh.patches.begin(), mesh.patches.end()) == 7);
+  CHECK(std::all_of(mesh.subdomains.begin(), mesh.subdomains.end(), [](int s) { return s == 5; }));
+  weft::Improve_options_3 wrong;
+  wrong.deviation = 2;
+  CHECK_THROWS_AS(weft::Delaunay_mesh_3<K>(given, wrong), weft::Option_error);
 }
 
 TEST_CASE("the CVT energy of sizes that vary is refused")

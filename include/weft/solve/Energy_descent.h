@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -68,6 +69,8 @@ public:
 private:
   static constexpr int most_idle = 3, most_halvings = 5, most_passes_back = 50;
   static constexpr double most_reach = 0.5; ///< of a point's mean edge length
+  static constexpr int most_dampings = 4;   ///< tries of Newton's step
+  static constexpr double least_damping = 0.03;
   static constexpr double sufficient = 1e-4; ///< part of the decrease that the gradient promises (Armijo)
 
   bool goes_on() const
@@ -116,9 +119,15 @@ private:
   bool sweep()
   {
     if (options_.solver == Solver::newton && in_newton_) {
-      if (descend(newton_direction(), Kind::newton)) return true;
+      for (int k = 0; k < most_dampings; ++k) {
+        if (descend(newton_direction(), Kind::newton)) {
+          damping_ = damping_ > least_damping ? damping_ / 4 : 0;
+          return true;
+        }
+        damping_ = (std::max)(4 * damping_, least_damping);
+      }
       in_newton_ = false; // Alg. 8: back to the fixed-point iteration, for longer than last time
-      newton_start_ /= 10;
+      newton_start_ /= 4;
     }
     if (options_.solver == Solver::quasi_newton) {
       if (descend(quasi_newton_direction(), Kind::quasi_newton)) return true;
@@ -158,7 +167,14 @@ private:
   Matrix newton_direction()
   {
     Lap_timer lap;
-    Matrix result = newton_step<d>(model_.newton_system(), free_, number_, gradient_,
+    auto blocks = model_.newton_system();
+    for (std::size_t k = 0; k < free_.size() && damping_ > 0; ++k) {
+      const auto i = static_cast<std::uint32_t>(free_[k]);
+      Jacobian_block<d> block{i, i, {}};
+      for (std::size_t c = 0; c < d; ++c) block.entries[c][c] = damping_ * terms_.diagonal[i];
+      blocks.push_back(block);
+    }
+    Matrix result = newton_step<d>(blocks, free_, number_, gradient_,
                                    [&](std::size_t i, const Point& v) { return model_.to_tangent(i, v); });
     report_.solving_seconds += lap.seconds();
     return result;
@@ -181,7 +197,8 @@ private:
     const double before = terms_.value;
     const std::vector<double> reach = reaches();
     double step = 1;
-    for (int k = 0; k <= most_halvings && goes_on(); ++k, step /= 2) {
+    const int halvings = kind == Kind::newton ? 1 : most_halvings;
+    for (int k = 0; k <= halvings && goes_on(); ++k, step /= 2) {
       std::vector<Point> targets = old;
       for (std::size_t i = 0; i < free_.size(); ++i) {
         const auto way = direction.row(static_cast<Eigen::Index>(i));
@@ -241,6 +258,7 @@ private:
   const Solver_options& options_;
   Quasi_newton memory_;
   double newton_start_;
+  double damping_ = 0; ///< part of the diagonal that is added to Newton's system: shorter steps, that lead down
   Graph_laplacian<d> laplacian_;
   std::vector<Point> positions_;
   std::vector<int> number_;       ///< of each point among the free ones, or -1

@@ -30,7 +30,8 @@ enum class Solver
   /// Laplacian (Chen, Holst 2011; Hateley, Wei, Chen 2015).
   quasi_newton,
   /// Fixed-point sweeps while these lower the energy fast, then Newton's iteration for the fixed point (Tournois 2009,
-  /// sec. 4.2.2, Alg. 8), damped: steps that don't lower the energy are halved, then left to a fixed-point sweep.
+  /// sec. 4.2.2, Alg. 8), damped: where a step doesn't lower the energy, a part of the diagonal is added to the system,
+  /// and if that doesn't help, fixed-point sweeps go on.
   newton
 };
 

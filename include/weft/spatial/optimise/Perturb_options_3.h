@@ -35,6 +35,8 @@ struct Perturb_options_3
   double insertions = 0.15;   ///< most vertices to add, those removed counted off, in parts of those there are
   double random_reach = 0.35; ///< how far from it, in parts of its shortest edge
   bool mend_worst = true;     ///< go on with the worst few cells once bounds have risen over the whole mesh
+  /// Gives the target up when reaching it at the latest pace would take so many times all the trials so far.
+  double persistence = 3;
   Perturb_directions_3 directions = Perturb_directions_3::combined;
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
   unsigned seed = 0;
@@ -51,6 +53,7 @@ struct Perturb_options_3
     require(most_passes > 0 && random_trials >= 0, "numbers of passes and trials must not be negative");
     require(insertions >= 0 && insertions <= 1, "insertions must lie in [0, 1]");
     require(random_reach > 0 && random_reach < 1, "random_reach must lie in (0, 1)");
+    require(persistence > 0, "persistence must be positive");
     require(time_limit >= 0, "time_limit must not be negative");
   }
 };

@@ -196,7 +196,7 @@ private:
     }
   }
 
-  /// Whether the target would take three times all the trials so far at the pace of the latter half of them. Narrow
+  /// Whether the target would take many times all the trials so far at the pace of the latter half of them. Narrow
   /// walls, for instance, leave no room.
   bool is_out_of_reach() const
   {
@@ -204,7 +204,7 @@ private:
     if (options_.target >= Perturb_options_3::as_far_as_it_goes || report_.trials < first + patience) return false;
     const std::size_t middle = first + (report_.trials - first) / 2;
     const auto half = std::find_if(course_.begin(), course_.end(), [&](const auto& c) { return c.first >= middle; });
-    return 6 * (report_.after - half->second) < options_.target - report_.after;
+    return 2 * options_.persistence * (report_.after - half->second) < options_.target - report_.after;
   }
 
   static constexpr double last_bound = 20;  ///< degrees, up to where the whole mesh is worked on
