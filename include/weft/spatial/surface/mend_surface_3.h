@@ -72,7 +72,8 @@ public:
   }
 
   /// Mends what doesn't depend on what the facets bound, and turns each connected part outwards.
-  Triangle_surface_3<K> cleaned(std::vector<bool>& bounds_nothing)
+  /// \param by_pieces whether closed pieces are parts of their own, although they share edges.
+  Triangle_surface_3<K> cleaned(std::vector<bool>& bounds_nothing, bool by_pieces)
   {
     Base::clean(false);
     if (with_caps_) cap_holes();
@@ -80,9 +81,10 @@ public:
     const std::vector<int> net = nets();
     Surface_regions_3<K> regions(surface, net);
     std::vector<bool> is_inwards = regions.looking_inwards();
-    const std::vector<Piece_side> outer = sides_of_closed_pieces(surface);
+    std::vector<Piece_side> outer(is_inwards.size(), Piece_side::unknown);
+    if (by_pieces) outer = sides_of_closed_pieces(surface);
     for (std::size_t t = 0; t < is_inwards.size(); ++t) {
-      // Regions mean little where facets cross.
+      // Where facets cross, regions mean little.
       bounds_nothing.push_back(outer[t] == Piece_side::unknown && regions.bounds_nothing(t));
       if (outer[t] != Piece_side::unknown) is_inwards[t] = outer[t] == Piece_side::behind;
     }

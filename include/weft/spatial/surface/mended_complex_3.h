@@ -96,26 +96,36 @@ struct Resolved_surface_3
   Mending_record_3 record; ///< of what was done before
 };
 
-/// Tolerances for facets that nearly lie in one plane, in parts of the diagonal: none, rounding, all that is allowed.
-inline std::vector<double> snappings(const Mend_options_3& mending)
+/// A way to cut facets where they meet.
+struct Resolving_3
+{
+  double snapping; ///< tolerance for facets that nearly lie in one plane, in parts of the diagonal
+  bool by_pieces;  ///< see `Surface_mender_3::cleaned()`
+};
+
+/// The ways to try, one after the other: no facets nearly lie in one plane, or but for rounding, or by all that is
+/// allowed.
+inline std::vector<Resolving_3> ways_to_resolve(const Mend_options_3& mending)
 {
   constexpr double rounding = 1e-12;
-  if (mending.tolerance > rounding) return {0, rounding, mending.tolerance};
-  return {0, rounding};
+  std::vector<Resolving_3> ways = {{0, false}, {rounding, false}};
+  if (mending.tolerance > rounding) ways.push_back({mending.tolerance, false});
+  for (std::size_t i = ways.size(); i-- > 0;) ways.push_back({ways[i].snapping, true});
+  return ways;
 }
 
-/// Cuts facets where they meet, within each surface and between them. \param snapping see `snappings()`.
+/// Cuts facets where they meet, within each surface and between them. \param how see `ways_to_resolve()`.
 /// \throws Domain_error.
 template <class K>
 std::vector<Resolved_surface_3<K>> resolve(const std::vector<Polygon_soup_3<K>>& soups, const Mend_options_3& mending,
-                                           bool with_caps, double snapping = 0)
+                                           bool with_caps, const Resolving_3& how)
 {
   std::vector<Resolved_surface_3<K>> result;
   Triangle_surface_3<K> all;
   for (std::size_t s = 0; s < soups.size(); ++s) {
     std::vector<bool> bounds_nothing;
     Surface_mender_3<K> mender(soups[s], mending, with_caps);
-    const Triangle_surface_3<K> surface = mender.cleaned(bounds_nothing);
+    const Triangle_surface_3<K> surface = mender.cleaned(bounds_nothing, how.by_pieces);
     result.emplace_back();
     result.back().record = mender.record();
     result.back().given.surface.points = surface.points;
@@ -136,7 +146,8 @@ std::vector<Resolved_surface_3<K>> resolve(const std::vector<Polygon_soup_3<K>>&
     for (auto other = first + 1; other != last; ++other) parts.unite(first->triangle, other->triangle);
   });
   const std::vector<std::size_t> surface_of = all.origins;
-  Intersection_resolver_3<K> resolver(all, mending, snapping * std::hypot(box.x_span(), box.y_span(), box.z_span()));
+  Intersection_resolver_3<K> resolver(all, mending,
+                                      how.snapping * std::hypot(box.x_span(), box.y_span(), box.z_span()));
   const std::size_t cut = resolver.resolve();
   if (cut == 0) throw Domain_error("no facets intersect", {}, {});
   for (const auto& [a, b] : resolver.pairs())
@@ -195,8 +206,8 @@ Piecewise_smooth_complex_3<K> mend_complex(const Polygon_soup_3<K>& soup, const 
         if (!everywhere) remains = error.what(); // with caps, if there are any: that comes nearer to a domain
       }
     }
-    for (const double snapping : snappings(mending)) try {
-        const auto resolved = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending, with_caps, snapping);
+    for (const Resolving_3& how : ways_to_resolve(mending)) try {
+        const auto resolved = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending, with_caps, how);
         return complex_of_resolved(resolved[0], by_angle_only(options), mending);
       } catch (const Domain_error&) {
       }
@@ -214,8 +225,8 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
 {
   options.check();
   mending.check();
-  for (const double snapping : snappings(mending)) try {
-      auto resolved = resolve(surfaces, mending, mending.most_capped > 0, snapping);
+  for (const Resolving_3& how : ways_to_resolve(mending)) try {
+      auto resolved = resolve(surfaces, mending, mending.most_capped > 0, how);
       const std::size_t cut = resolved[0].record.cut, snapped = resolved[0].record.snapped;
       for (auto& surface : resolved) surface.record.cut = surface.record.snapped = 0;
       auto complex = merge_surfaces(resolved, options, [&](const Resolved_surface_3<K>& surface) {
