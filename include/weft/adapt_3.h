@@ -4,9 +4,16 @@
 // the field, and leaves alone what fits already. Where edges are too long it refines, where they are far too short it
 // takes vertices away, and around both it smooths and perturbs (Tournois 2009, sec. 4.1).
 //
-//   auto [restricted, report] = weft::make_mesh_3(domain, criteria);
-//   auto mesh = weft::tetrahedral_mesh(restricted);
-//   criteria.size = weft::Lipschitz_sizing_3<K>(what_the_solution_wants, domain.bbox(), 0.5);
+//   #include <weft/IO/read_surface.h>
+//   #include <weft/sizing/Lipschitz_sizing_3.h>
+//
+//   const auto surface = weft::IO::read_surface<K>("part.off");
+//   const weft::Polyhedral_oracle_3<K> domain(surface, weft::Feature_options{60});
+//   weft::Criteria_3<K> criteria;
+//   criteria.size = 0.1;
+//   auto mesh = weft::tetrahedral_mesh(weft::make_mesh_3(domain, criteria).restricted);
+//   const auto wanted = [](const K::Point_3& p) { return p.x() < 0 ? 0.02 : 0.1; };
+//   criteria.size = weft::Lipschitz_sizing_3<K>(wanted, domain.bbox(), 0.5);
 //   mesh = weft::tetrahedral_mesh(weft::adapt_3(mesh, domain, criteria).restricted);
 
 #ifndef WEFT_ADAPT_3_H

@@ -5,6 +5,7 @@
 #include "surface.h"
 
 #include <weft/internal/counted.h>
+#include <weft/IO/read_sizing_3.h>
 #include <weft/IO/read_surface.h>
 #include <weft/IO/write_angle_histogram_svg.h>
 #include <weft/IO/write_mesh_3.h>
@@ -75,6 +76,13 @@ std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames,
   auto complex = weft::mended_complex_3(surfaces, features, mending.options);
   if (complex.changes.empty()) surfaces.clear(); // the mesh is compared with the complex
   return std::make_unique<Surface_domain>(std::move(complex), std::move(surfaces));
+}
+
+std::function<double(const std::array<double, 3>&)> read_size_field(const std::string& filename)
+{
+  return [field = weft::IO::read_sizing_3<K>(filename)](const std::array<double, 3>& p) {
+    return field(K::Point_3(p[0], p[1], p[2]));
+  };
 }
 
 // ---- Results

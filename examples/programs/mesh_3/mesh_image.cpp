@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "result.h"
+#include "sizes.h"
 
 #include <weft/errors.h>
 #include <weft/internal/counted.h>

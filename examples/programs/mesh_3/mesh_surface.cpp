@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "sizes.h"
 #include "surface.h"
 
 #include <weft/mesh_surface_3.h>

@@ -100,10 +100,6 @@ inline weft::Criteria_3<K> criteria(const Bounds& bounds, const Parts& parts)
   return criteria;
 }
 
-/// The same with sizes that vary. \tparam Oracle of the domain.
-template <class Oracle>
-weft::Criteria_3<K> with_sizes(const Oracle& oracle, weft::Criteria_3<K> criteria, const Bounds& bounds);
-
 inline double diagonal(const CGAL::Bbox_3& box)
 {
   return std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());

@@ -67,6 +67,7 @@ std::size_t insert_interior(std::vector<typename Restricted::Point> points,
 {
   using Point = typename Restricted::Point;
   const std::size_t before = points.size();
+  if (points.empty()) return 0; // looking for those that encroach takes long where sizes vary
   const double spacing = 0.1 * criteria.size(Point(0, 0, 0));
   drop_encroaching(mesh, spacing, 0, points);
   std::vector<Point> inside;

@@ -68,8 +68,8 @@ public:
 
 private:
   /// In parts of the size: mean edges of meshes that fit are about 0.8, single ones rarely below 0.4.
-  static constexpr double too_short_on_average = 0.58, too_short = 0.25;
-  static constexpr double apart = 0.68; ///< the same of distances between those that stay
+  static constexpr double too_short_on_average = 0.55, too_short = 0.25;
+  static constexpr double apart = 0.62; ///< the same of distances between those that stay
 
   /// Neighbours of each vertex, in order.
   struct Graph

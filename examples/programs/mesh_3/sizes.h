@@ -2,23 +2,20 @@
 //
 // Sizes that vary in space.
 
+#ifndef WEFT_EXAMPLES_PROGRAMS_MESH_3_SIZES_H
+#define WEFT_EXAMPLES_PROGRAMS_MESH_3_SIZES_H
+
 #include "result.h"
 
-#include <weft/IO/read_sizing_3.h>
-#include <weft/spatial/domain/Image_oracle_3.h>
-#include <weft/spatial/domain/Polyhedral_oracle_3.h>
 #include <weft/spatial/sizing/Feature_sizing_3.h>
 #include <weft/spatial/sizing/grade_criteria_3.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace mesh_3_program {
 
-std::function<double(const std::array<double, 3>&)> read_size_field(const std::string& filename)
-{
-  return [field = weft::IO::read_sizing_3<K>(filename)](const std::array<double, 3>& p) {
-    return field(K::Point_3(p[0], p[1], p[2]));
-  };
-}
-
+/// Criteria with the sizes that are asked for. \tparam Oracle of the domain.
 template <class Oracle>
 weft::Criteria_3<K> with_sizes(const Oracle& oracle, weft::Criteria_3<K> criteria, const Bounds& bounds)
 {
@@ -38,7 +35,6 @@ weft::Criteria_3<K> with_sizes(const Oracle& oracle, weft::Criteria_3<K> criteri
   return weft::grade_criteria_3(oracle, criteria, k);
 }
 
-template weft::Criteria_3<K> with_sizes(const weft::Polyhedral_oracle_3<K>&, weft::Criteria_3<K>, const Bounds&);
-template weft::Criteria_3<K> with_sizes(const weft::Image_oracle_3<K>&, weft::Criteria_3<K>, const Bounds&);
-
 } // namespace mesh_3_program
+
+#endif // WEFT_EXAMPLES_PROGRAMS_MESH_3_SIZES_H
