@@ -56,8 +56,8 @@ Mesh_3 shaken_cube(unsigned seed)
     triangulation.insert(mesh.points.back())->info() = mesh.points.size() - 1;
   }
   for (const auto c : triangulation.finite_cell_handles()) {
-    const auto center = CGAL::circumcenter(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(),
-                                           c->vertex(3)->point());
+    const auto center =
+        CGAL::circumcenter(c->vertex(0)->point(), c->vertex(1)->point(), c->vertex(2)->point(), c->vertex(3)->point());
     if (CGAL::squared_distance(center, c->vertex(0)->point()) > 0.13) continue;
     mesh.cells.push_back({c->vertex(0)->info(), c->vertex(1)->info(), c->vertex(2)->info(), c->vertex(3)->info()});
   }
@@ -208,11 +208,15 @@ TEST_CASE("gradients are central differences")
   const Mesh_3 cube = shaken_cube(seed);
   std::vector<double> sizes;
   for (const auto& p : cube.points) sizes.push_back(0.2 + 0.2 * p.x() + 0.1 * p.y() * p.z());
-  CHECK(gradient_error(cube, [](const Mesh_3& m) { return weft::odt_energy_3(m); }, 3, all) < accuracy);
-  CHECK(gradient_error(cube, [&](const Mesh_3& m) { return weft::odt_energy_3(m, sizes); }, 3, all) < accuracy);
-  CHECK(gradient_error(cube, [](const Mesh_3& m) { return weft::cvt_energy_3(m); }, 3, all) < accuracy);
+  CHECK(gradient_error(
+            cube, [](const Mesh_3& m) { return weft::odt_energy_3(m); }, 3, all) < accuracy);
+  CHECK(gradient_error(
+            cube, [&](const Mesh_3& m) { return weft::odt_energy_3(m, sizes); }, 3, all) < accuracy);
+  CHECK(gradient_error(
+            cube, [](const Mesh_3& m) { return weft::cvt_energy_3(m); }, 3, all) < accuracy);
   const auto density_3 = [](const K::Point_3& p) { return 1 + p.x() + 2 * p.y() * p.z() + p.x() * p.x() * p.y(); };
-  CHECK(gradient_error(cube, [&](const Mesh_3& m) { return weft::cvt_energy_3(m, density_3); }, 3, all) < accuracy);
+  CHECK(gradient_error(
+            cube, [&](const Mesh_3& m) { return weft::cvt_energy_3(m, density_3); }, 3, all) < accuracy);
 
   const Mesh_2 l = scattered_l(seed);
   sizes.clear();
@@ -220,11 +224,15 @@ TEST_CASE("gradients are central differences")
   const auto is_free = [&](std::size_t i) {
     return std::none_of(l.edges.begin(), l.edges.end(), [i](const auto& e) { return e[0] == i || e[1] == i; });
   };
-  CHECK(gradient_error(l, [](const Mesh_2& m) { return weft::odt_energy_2(m); }, 2, all) < accuracy);
-  CHECK(gradient_error(l, [&](const Mesh_2& m) { return weft::odt_energy_2(m, sizes); }, 2, all) < accuracy);
-  CHECK(gradient_error(l, [](const Mesh_2& m) { return weft::cvt_energy_2(m); }, 2, is_free) < accuracy);
+  CHECK(gradient_error(
+            l, [](const Mesh_2& m) { return weft::odt_energy_2(m); }, 2, all) < accuracy);
+  CHECK(gradient_error(
+            l, [&](const Mesh_2& m) { return weft::odt_energy_2(m, sizes); }, 2, all) < accuracy);
+  CHECK(gradient_error(
+            l, [](const Mesh_2& m) { return weft::cvt_energy_2(m); }, 2, is_free) < accuracy);
   const auto density_2 = [](const Point& p) { return 1 + p.x() + 2 * p.y() * p.x() + p.x() * p.x() * p.y(); };
-  CHECK(gradient_error(l, [&](const Mesh_2& m) { return weft::cvt_energy_2(m, density_2); }, 2, is_free) < accuracy);
+  CHECK(gradient_error(
+            l, [&](const Mesh_2& m) { return weft::cvt_energy_2(m, density_2); }, 2, is_free) < accuracy);
 }
 
 TEST_CASE("Jacobians of the fixed-point iterations are central differences")
@@ -245,7 +253,7 @@ TEST_CASE("Jacobians of the fixed-point iterations are central differences")
   CHECK(jacobian_error(l, cvt_2, weft::cvt_jacobian_2(l), 2, is_free) < accuracy);
 }
 
-const std::vector<Point> crooked_l{Point(0, 0),     Point(2.1, 0.1), Point(1.9, 1.13),
+const std::vector<Point> crooked_l{Point(0, 0),    Point(2.1, 0.1), Point(1.9, 1.13),
                                    Point(1.02, 1), Point(1.07, 2),  Point(-0.1, 1.9)};
 
 /// A mesh of a crooked L refined without being relaxed; of a straight one that is a regular grid already.

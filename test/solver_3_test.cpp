@@ -33,8 +33,8 @@ std::size_t cells_below(const Restricted& mesh, double degrees)
 {
   std::size_t n = 0;
   for (const auto c : mesh.triangulation().finite_cell_handles())
-    n += c->subdomain() != 0 &&
-         weft::internal::degrees_of_cosine(weft::internal::cosines_of_cell(c).smallest) < degrees;
+    n +=
+        c->subdomain() != 0 && weft::internal::degrees_of_cosine(weft::internal::cosines_of_cell(c).smallest) < degrees;
   return n;
 }
 
@@ -116,7 +116,7 @@ Mesh others_mesh()
   const auto shift = [&random] { return 0.03 * (random() / 4294967296.0 - 0.5); };
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     if (mesh.locations[v].dimension < 3) continue;
-    const Point &p = mesh.points[v];
+    const Point& p = mesh.points[v];
     const double x = p.x() + shift(), y = p.y() + shift(), z = p.z() + shift();
     mesh.points[v] = Point(x, y, z);
   }

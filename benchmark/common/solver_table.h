@@ -33,8 +33,8 @@ inline weft::Solver solver_of_name(const std::string& name)
                                : weft::Solver::newton;
 }
 
-/// Sweeps, and user seconds with those undone, until the energy is within parts of the largest that any ends with: minima
-/// that solvers find differ by about a thousandth in small meshes.
+/// Sweeps, and user seconds with those undone, until the energy is within parts of the largest that any ends with:
+/// minima that solvers find differ by about a thousandth in small meshes.
 inline void print_solvers(const std::vector<Solver_row>& rows)
 {
   double common = 0;
@@ -44,11 +44,8 @@ inline void print_solvers(const std::vector<Solver_row>& rows)
   for (const Solver_row& row : rows) {
     const auto& energies = row.report.energies;
     const double seconds = row.user_seconds / static_cast<double>(row.report.sweeps);
-    std::vector<std::string> cells{row.name,
-                                   std::to_string(row.vertices),
-                                   text(energies.back() / common, 5),
-                                   std::to_string(row.report.sweeps),
-                                   std::to_string(row.report.undone_sweeps)};
+    std::vector<std::string> cells{row.name, std::to_string(row.vertices), text(energies.back() / common, 5),
+                                   std::to_string(row.report.sweeps), std::to_string(row.report.undone_sweeps)};
     const double undone = static_cast<double>(row.report.sweeps) / static_cast<double>(energies.size() - 1);
     std::size_t to_thousandth = 0;
     for (const double part : {1e-2, 1e-3, 1e-4}) {
@@ -57,11 +54,11 @@ inline void print_solvers(const std::vector<Solver_row>& rows)
       if (part == 1e-3) to_thousandth = k;
       cells.push_back(k < energies.size() ? std::to_string(k) : "never");
     }
-    cells.insert(cells.end(), {seconds_text(row.user_seconds), text(1000 * seconds, 1),
-                               to_thousandth < energies.size()
-                                   ? seconds_text(seconds * undone * static_cast<double>(to_thousandth))
-                                   : "-",
-                               row.remark});
+    cells.insert(
+        cells.end(),
+        {seconds_text(row.user_seconds), text(1000 * seconds, 1),
+         to_thousandth < energies.size() ? seconds_text(seconds * undone * static_cast<double>(to_thousandth)) : "-",
+         row.remark});
     std::cout << markdown_row(cells);
   }
 }

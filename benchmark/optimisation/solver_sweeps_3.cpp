@@ -5,8 +5,8 @@
 //
 //   solver_sweeps_3 [--size S] [--uniform] [--keep] [--fixed-boundary] [--sweeps N] [--solver NAME]... [FILE]
 //
-// Without a file: the unit ball. Criteria: size S in parts of the longest side, 0.1 unless given; for files a thousandth
-// of it as approximation, and the thesis' shapes. --uniform: no metric. --keep: criteria are kept.
+// Without a file: the unit ball. Criteria: size S in parts of the longest side, 0.1 unless given; for files a
+// thousandth of it as approximation, and the thesis' shapes. --uniform: no metric. --keep: criteria are kept.
 
 #include "../common/program.h"
 #include "../common/solver_table.h"

@@ -82,7 +82,8 @@ int main(int argc, char** argv)
       options.solver = solver_of_name(name);
       if (graded)
         rows.push_back(run(
-            name, [&](const K::Point_2& p) { return size * (0.5 + 2 * std::hypot(p.x() - 0.3, p.y() - 0.3)); }, options));
+            name, [&](const K::Point_2& p) { return size * (0.5 + 2 * std::hypot(p.x() - 0.3, p.y() - 0.3)); },
+            options));
       else
         rows.push_back(run(name, weft::Uniform_sizing<>(size), options));
     }

@@ -35,8 +35,7 @@ public:
   /// Tags the blind triangles (Alg. 3). Plain arithmetic: a wrong tag on a near tie moves a corner by rounding error.
   explicit Bounded_cells_2(const Simplices<2>& mesh) : mesh_(mesh), wall_(mesh.simplices.size(), none)
   {
-    for (std::size_t t = 0; t < mesh.simplices.size(); ++t)
-      centers_.push_back(circumcenter(corners(t)));
+    for (std::size_t t = 0; t < mesh.simplices.size(); ++t) centers_.push_back(circumcenter(corners(t)));
     for (std::size_t t = 0; t < mesh.simplices.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) {
         if (mesh.neighbors[t][i] != Simplices<2>::none || wall_[t] != none) continue;
@@ -135,7 +134,7 @@ private:
 
   const Simplices<2>& mesh_;
   std::vector<Vector> centers_;
-  std::vector<std::size_t> wall_; ///< by triangle, its place in `walls_`
+  std::vector<std::size_t> wall_;                ///< by triangle, its place in `walls_`
   std::vector<std::pair<Vector, Vector>> walls_; ///< with the blind triangles to their left
 };
 

@@ -19,8 +19,8 @@ struct Mesh_energy
 {
   double value = 0;
   std::vector<Vector> gradient; ///< by the position of each point of the mesh
-  /// By point: the gradient over this is the step of the fixed-point iteration, which is Lloyd's for the CVT energy, and
-  /// that to the volume-weighted mean of circumcenters for the ODT energy.
+  /// By point: the gradient over this is the step of the fixed-point iteration, which is Lloyd's for the CVT energy,
+  /// and that to the volume-weighted mean of circumcenters for the ODT energy.
   std::vector<double> diagonal;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The CVT energy in the plane (Tournois 2009, sec. 2.2.2): the sum over bounded Voronoi cells of the integral of a
-// density times the squared distance to the vertex. It is twice continuously differentiable inside (Liu, Wang, Levy, Sun,
-// Yan, Lu, Yang 2009), and its gradient is twice the mass of the cell times the way from its centroid to the vertex.
+// density times the squared distance to the vertex. It is twice continuously differentiable inside (Liu, Wang, Levy,
+// Sun, Yan, Lu, Yang 2009), and its gradient is twice the mass of the cell times the way from its centroid to the
+// vertex.
 
 #ifndef WEFT_ENERGY_CVT_TERMS_2_H
 #define WEFT_ENERGY_CVT_TERMS_2_H

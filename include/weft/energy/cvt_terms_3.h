@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The CVT energy in space (Du, Faber, Gunzburger 1999; Tournois 2009, sec. 2.2.2 and 4.2.2). Voronoi cells are taken as
-// signed pieces of the tetrahedra: those between a vertex, the midpoint of an edge, and the circumcenters of a facet and
-// of the cell. They add up to the domain of the mesh even where a circumcenter lies beyond its boundary, which makes the
-// gradient exact everywhere; with all circumcenters inside, the pieces are those of the Voronoi cells in the domain.
+// signed pieces of the tetrahedra: those between a vertex, the midpoint of an edge, and the circumcenters of a facet
+// and of the cell. They add up to the domain of the mesh even where a circumcenter lies beyond its boundary, which
+// makes the gradient exact everywhere; with all circumcenters inside, the pieces are those of the Voronoi cells in the
+// domain.
 
 #ifndef WEFT_ENERGY_CVT_TERMS_3_H
 #define WEFT_ENERGY_CVT_TERMS_3_H
@@ -80,9 +81,8 @@ void add_boundary_speed(const std::array<Coordinates<3>, 3>& facet, const Coordi
     }
 }
 
-/// The CVT energy and its gradient, that of boundary vertices included: the domain of the mesh changes with them. Linear.
-/// \param density callable, `Coordinates<3>` -> positive number.
-/// \pre `neighbors` are set.
+/// The CVT energy and its gradient, that of boundary vertices included: the domain of the mesh changes with them.
+/// Linear. \param density callable, `Coordinates<3>` -> positive number. \pre `neighbors` are set.
 template <class Density>
 Energy_terms<3> cvt_terms(const Simplices<3>& mesh, const Density& density, bool with_weights = false)
 {
@@ -107,8 +107,7 @@ Energy_terms<3> cvt_terms(const Simplices<3>& mesh, const Density& density, bool
             const std::array<Vector, 4> piece{Vector{0, 0, 0}, difference(m, at.corners[v]),
                                               difference(at.facets[f], at.corners[v]),
                                               difference(at.cell, at.corners[v])};
-            const double signed_volume =
-                (even == (v == i) ? 1 : -1) * dot(piece[1], cross(piece[2], piece[3])) / 6;
+            const double signed_volume = (even == (v == i) ? 1 : -1) * dot(piece[1], cross(piece[2], piece[3])) / 6;
             add_moments<3>(piece, signed_volume, density, mesh.points[s[v]], moments[s[v]]);
             volume += signed_volume / 2;
           }

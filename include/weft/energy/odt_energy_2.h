@@ -6,8 +6,8 @@
 #ifndef WEFT_ENERGY_ODT_ENERGY_2_H
 #define WEFT_ENERGY_ODT_ENERGY_2_H
 
-#include <weft/energy/odt_terms.h>
 #include <weft/energy/Mesh_energy.h>
+#include <weft/energy/odt_terms.h>
 #include <weft/energy/simplices_of_mesh.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
 

@@ -36,8 +36,7 @@ void copy_simplices(const Mesh& mesh, const std::vector<std::array<std::size_t, 
   }
   for (const auto& s : from) {
     to.simplices.emplace_back();
-    for (std::size_t k = 0; k < n; ++k)
-      to.simplices.back()[k] = static_cast<typename Simplices<n - 1>::Number>(s[k]);
+    for (std::size_t k = 0; k < n; ++k) to.simplices.back()[k] = static_cast<typename Simplices<n - 1>::Number>(s[k]);
   }
 }
 

@@ -30,7 +30,8 @@ namespace weft::internal {
 /// \tparam Model the mesh that is worked on, with points numbered from 0:
 ///   - `terms(with_weights)`, its energy; `simplices()`, those that belong to it;
 ///   - `positions()`; `is_free(i)`; `to_tangent(i, vector)`, projected to where point i may go;
-///   - `move(points, targets)` moves points i to `targets[i]`, projected, as far as possible, and makes the mesh Delaunay;
+///   - `move(points, targets)` moves points i to `targets[i]`, projected, as far as possible, and makes the mesh
+///   Delaunay;
 ///     `move_back(points, old)` undoes that;
 ///   - `newton_system()`, the Jacobian of the fixed-point iteration, see Newton_step.h.
 template <class Model, std::size_t d>
@@ -41,7 +42,11 @@ public:
   using Matrix = Eigen::MatrixXd;
 
   Energy_descent(Model& model, const Solver_options& options)
-      : model_(model), options_(options), memory_(options.memory), newton_start_(options.newton_start), positions_(model.positions())
+      : model_(model),
+        options_(options),
+        memory_(options.memory),
+        newton_start_(options.newton_start),
+        positions_(model.positions())
   {
     number_.assign(positions_.size(), -1);
     for (std::size_t i = 0; i < number_.size(); ++i) {

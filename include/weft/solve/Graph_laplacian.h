@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The graph Laplacian of a mesh as a preconditioner of energies (Chen, Holst, "Efficient mesh optimization schemes based
-// on optimal Delaunay triangulations", 2011; Hateley, Wei, Chen, "Fast methods for computing centroidal Voronoi
+// The graph Laplacian of a mesh as a preconditioner of energies (Chen, Holst, "Efficient mesh optimization schemes
+// based on optimal Delaunay triangulations", 2011; Hateley, Wei, Chen, "Fast methods for computing centroidal Voronoi
 // tessellations", 2015): it has the diagonal of the fixed-point iteration, and knows how vertices follow each other.
 
 #ifndef WEFT_SOLVE_GRAPH_LAPLACIAN_H

@@ -77,7 +77,8 @@ Eigen::MatrixXd newton_step(const std::vector<Jacobian_block<d>>& blocks, const 
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& block : blocks) {
     if (number[block.row] < 0 || number[block.column] < 0) continue;
-    const auto row = static_cast<std::size_t>(number[block.row]), column = static_cast<std::size_t>(number[block.column]);
+    const auto row = static_cast<std::size_t>(number[block.row]),
+               column = static_cast<std::size_t>(number[block.column]);
     for (std::size_t a = directions.first[row]; a < directions.first[row + 1]; ++a)
       for (std::size_t b = directions.first[column]; b < directions.first[column + 1]; ++b) {
         double value = 0;

@@ -44,12 +44,12 @@ struct Solver_options
   int max_sweeps = 100;
   /// Ends when three sweeps in turn lower the energy by less than this part of it each.
   double tolerance = 1e-6;
-  bool move_boundary = true; ///< whether vertices on constraints, patches and creases slide along them
-  int memory = 7;            ///< of the quasi-Newton iteration: pairs of steps and changes of the gradient
-  int refresh = 15;          ///< sweeps after which the preconditioner is made anew
+  bool move_boundary = true;  ///< whether vertices on constraints, patches and creases slide along them
+  int memory = 7;             ///< of the quasi-Newton iteration: pairs of steps and changes of the gradient
+  int refresh = 15;           ///< sweeps after which the preconditioner is made anew
   double newton_start = 1e-3; ///< Newton's iteration begins when a sweep lowers the energy by less than this part
   double time_limit = std::numeric_limits<double>::infinity(); ///< seconds of wall time
-  std::function<bool()> go_on; ///< called before every sweep; false ends the run
+  std::function<bool()> go_on;                                 ///< called before every sweep; false ends the run
 
   /// \throws Option_error naming the first option out of range.
   void check() const

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The Jacobian of Lloyd's iteration (Du, Emelianenko, "Acceleration schemes for computing centroidal Voronoi
-// tessellations", 2006; Tournois 2009, sec. 4.2.2): a centroid changes as the walls of its cell move. Where x_j moves, a
-// point y of the wall between x_i and x_j moves at (x_j - y) / |x_i - x_j| times the velocity of x_j out of the cell of
-// x_i.
+// tessellations", 2006; Tournois 2009, sec. 4.2.2): a centroid changes as the walls of its cell move. Where x_j moves,
+// a point y of the wall between x_i and x_j moves at (x_j - y) / |x_i - x_j| times the velocity of x_j out of the cell
+// of x_i.
 
 #ifndef WEFT_SOLVE_CVT_JACOBIAN_BLOCKS_H
 #define WEFT_SOLVE_CVT_JACOBIAN_BLOCKS_H
@@ -31,7 +31,8 @@ public:
   using Vector = Coordinates<d>;
   using Block = Jacobian_block<d>;
 
-  /// \param terms the energy; the centroid is the point less gradient / diagonal, but for what moves of the boundary add.
+  /// \param terms the energy; the centroid is the point less gradient / diagonal, but for what moves of the boundary
+  /// add.
   Wall_jacobian(const Simplices<d>& mesh, const Energy_terms<d>& terms, std::vector<Block>& blocks)
       : mesh_(mesh), terms_(terms), blocks_(blocks)
   {

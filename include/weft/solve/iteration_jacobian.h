@@ -30,7 +30,8 @@ Eigen::SparseMatrix<double> jacobian_matrix(const std::vector<Jacobian_block<d>>
 {
   std::vector<Eigen::Triplet<double>> entries;
   const auto at = [](std::size_t point, std::size_t c) { return static_cast<int>(d * point + c); };
-  for (std::size_t i = 0; i < d * diagonal.size(); ++i) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1);
+  for (std::size_t i = 0; i < d * diagonal.size(); ++i)
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1);
   for (const auto& block : blocks)
     for (std::size_t r = 0; r < d; ++r)
       for (std::size_t c = 0; c < d; ++c)
@@ -62,8 +63,8 @@ Eigen::SparseMatrix<double> odt_jacobian_3(const Tetrahedral_mesh_3<K>& mesh)
   return internal::jacobian_matrix(internal::odt_jacobian_blocks(simplices, terms), terms.diagonal);
 }
 
-/// The Jacobian of the map from the points of a planar mesh to the centroids of their bounded Voronoi cells, with density
-/// 1: valid for points inside, by moves of all others that leave the domain as it is. Linear.
+/// The Jacobian of the map from the points of a planar mesh to the centroids of their bounded Voronoi cells, with
+/// density 1: valid for points inside, by moves of all others that leave the domain as it is. Linear.
 template <class K>
 Eigen::SparseMatrix<double> cvt_jacobian_2(const Triangle_mesh_2<K>& mesh)
 {

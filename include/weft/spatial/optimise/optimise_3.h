@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// All stages that follow refinement (Tournois 2009, Alg. 5) on a mesh that satisfies its criteria: coarsening, smoothing
-// by a smoother of one's choice, coarsening again, perturbation of slivers.
+// All stages that follow refinement (Tournois 2009, Alg. 5) on a mesh that satisfies its criteria: coarsening,
+// smoothing by a smoother of one's choice, coarsening again, perturbation of slivers.
 
 #ifndef WEFT_SPATIAL_OPTIMISE_OPTIMISE_3_H
 #define WEFT_SPATIAL_OPTIMISE_OPTIMISE_3_H
@@ -10,8 +10,8 @@
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/optimise/coarsen_3.h>
 #include <weft/spatial/optimise/Coarsen_options_3.h>
-#include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>
+#include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/optimise/smoothers_3.h>
@@ -35,10 +35,9 @@ struct Optimise_report_3
   Perturb_report_3 perturbation;
 };
 
-/// Optimises a mesh under one guard, which keeps each stage from undoing what refinement or an earlier one has achieved.
-/// \tparam Restricted a Restricted_delaunay_3.
-/// \tparam Smoother a smoother, see smoothers_3.h; or Energy_smoother_3, which minimises an energy.
-/// \throws Option_error for options or criteria out of range.
+/// Optimises a mesh under one guard, which keeps each stage from undoing what refinement or an earlier one has
+/// achieved. \tparam Restricted a Restricted_delaunay_3. \tparam Smoother a smoother, see smoothers_3.h; or
+/// Energy_smoother_3, which minimises an energy. \throws Option_error for options or criteria out of range.
 template <class Restricted, class Smoother = Natural_odt_3>
 Optimise_report_3 optimise_3(Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria,
                              const Optimise_options_3& options = Optimise_options_3(),

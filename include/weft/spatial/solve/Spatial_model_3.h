@@ -32,8 +32,8 @@
 
 namespace weft::internal {
 
-/// Model of Energy_descent over a Restricted_delaunay_3: points are its vertices, by id. Sizes are those that the mesh has
-/// in the beginning, which vertices take along.
+/// Model of Energy_descent over a Restricted_delaunay_3: points are its vertices, by id. Sizes are those that the mesh
+/// has in the beginning, which vertices take along.
 template <class Restricted>
 class Spatial_model_3
 {
@@ -151,10 +151,7 @@ private:
     bool is_known = false;
   };
 
-  static Vector xyz(const Point& p)
-  {
-    return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
-  }
+  static Vector xyz(const Point& p) { return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())}; }
 
   Energy_terms<3> terms_of_mesh(bool with_weights) const
   {

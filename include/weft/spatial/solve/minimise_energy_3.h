@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Minimises the ODT or the CVT energy of a tetrahedral mesh by a solver of one's choice (Tournois 2009, sec. 4.2.2). Needs
-// Eigen 3.
+// Minimises the ODT or the CVT energy of a tetrahedral mesh by a solver of one's choice (Tournois 2009, sec. 4.2.2).
+// Needs Eigen 3.
 
 #ifndef WEFT_SPATIAL_SOLVE_MINIMISE_ENERGY_3_H
 #define WEFT_SPATIAL_SOLVE_MINIMISE_ENERGY_3_H
@@ -22,8 +22,7 @@ namespace internal {
 
 template <class Restricted>
 Solver_report minimise_energy(Restricted& mesh, const Criteria_guard_3<Restricted>* guard,
-                              const Solver_options& options, const Smooth_options_3& smoothing,
-                              Smooth_report_3& report)
+                              const Solver_options& options, const Smooth_options_3& smoothing, Smooth_report_3& report)
 {
   options.check();
   if (options.energy == Energy::cvt && !smoothing.uniform)
@@ -43,10 +42,9 @@ Solver_report minimise_energy(Restricted& mesh, const Criteria_guard_3<Restricte
 /// Moves the vertices of a mesh to where an energy is small: those on patches and creases along them, feature vertices
 /// not at all. The triangulation stays Delaunay; the energy after each sweep that is kept is less than before.
 ///
-/// The energy is that of the cells in the domain. On the boundary its gradient is projected to the patch or crease; where
-/// these are flat or straight, that is Natural ODT.
-/// \tparam Restricted a Restricted_delaunay_3.
-/// \param smoothing its `uniform`, `lipschitz` and `keep_criteria` count: the metric, and whether moves that violate a
+/// The energy is that of the cells in the domain. On the boundary its gradient is projected to the patch or crease;
+/// where these are flat or straight, that is Natural ODT. \tparam Restricted a Restricted_delaunay_3. \param smoothing
+/// its `uniform`, `lipschitz` and `keep_criteria` count: the metric, and whether moves that violate a
 ///        criterion are shortened. Budgets are those of `options`.
 /// \throws Option_error for options or criteria out of range.
 template <class Restricted>
