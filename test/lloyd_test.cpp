@@ -7,6 +7,7 @@
 
 #include <weft/planar/relax/Lloyd_2.h>
 #include <weft/planar/relax/quadrature_2.h>
+#include <weft/planar/run/mesh_as_published_2.h>
 #include <weft/planar/triangulation/Bounded_voronoi_diagram_2.h>
 #include <weft/planar/triangulation/Relocator_2.h>
 #include <weft/planar/working/Working_mesh_2.h>
@@ -128,6 +129,38 @@ double energy_of_square(const std::vector<Cdt::Vertex_handle>& vertices)
       sum += nearest;
     }
   return sum / (n * n);
+}
+
+TEST_CASE("Alg. 2 as printed meshes the domain, and each of its parts saves vertices")
+{
+  const Pslg pslg = nested_holes();
+  const auto run = [&](const weft::As_published_options_2& options) {
+    Cdt cdt = triangulate(pslg);
+    const auto report = weft::mesh_as_published_2(cdt, 0.04 * diameter(pslg), options);
+    CHECK(mesh_faults(cdt, pslg).empty());
+    CHECK(report.sizes_held);
+    CHECK(report.largest_ratio < 1.2);
+    CHECK(report.batches > 1);
+    CHECK(report.sweeps > 0);
+    return cdt.number_of_vertices();
+  };
+  const std::size_t printed = run({});
+  weft::As_published_options_2 options;
+  options.interleave = false;
+  CHECK(run(options) > printed);
+  options = {};
+  options.alter_triangles = false;
+  CHECK(run(options) > printed);
+  options = {};
+  options.alter_edges = false;
+  CHECK(run(options) != printed);
+  options = {};
+  options.lower_slowly = false;
+  CHECK(run(options) != printed);
+  options = {};
+  options.move_ratio = 0;
+  Cdt cdt = triangulate(pslg);
+  CHECK_THROWS_AS(weft::mesh_as_published_2(cdt, 0.1, options), weft::Option_error);
 }
 
 } // namespace

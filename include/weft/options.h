@@ -18,8 +18,9 @@ enum class Seeding
 {
   /// A triangular lattice in the metric of the sizing field, grown through every room of the domain.
   crystal,
-  /// Nothing: refinement in batches and relaxation in turn, from the bare constraints, which is Alg. 2 of Tournois
-  /// 2009. What weft adds to that stays on (feedback, polishing, mended angles), but for the grading of `grade_input`.
+  /// Nothing: refinement in batches and relaxation in turn, from the bare constraints. That is the order of Alg. 2 of
+  /// Tournois 2009, with what weft adds to it (feedback, polishing, mended angles, target ratios of at least 1.2), but
+  /// for the grading of `grade_input`. `mesh_as_published_2()` is Alg. 2 itself.
   none
 };
 

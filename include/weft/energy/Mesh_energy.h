@@ -17,7 +17,7 @@ namespace weft {
 template <class Vector>
 struct Mesh_energy
 {
-  double value = 0;
+  double value = 0;             ///< at the points as they are
   std::vector<Vector> gradient; ///< by the position of each point of the mesh
   /// By point: the gradient over this is the step of the fixed-point iteration, which is Lloyd's for the CVT energy,
   /// and that to the volume-weighted mean of circumcenters for the ODT energy.

@@ -22,9 +22,9 @@ namespace weft {
 struct Optimise_options_3
 {
   bool coarsen = true, smooth = true, perturb = true; ///< which stages run
-  Coarsen_options_3 coarsening;
-  Smooth_options_3 smoothing;
-  Perturb_options_3 perturbation;
+  Coarsen_options_3 coarsening;                       ///< before and after smoothing
+  Smooth_options_3 smoothing;                         ///< metric, number of sweeps
+  Perturb_options_3 perturbation;                     ///< smallest dihedral angle to reach
 };
 
 /// What `optimise_3()` did; of stages that didn't run, nothing.

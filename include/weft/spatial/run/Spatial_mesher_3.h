@@ -31,6 +31,7 @@
 #include <weft/spatial/run/Still_vertices_3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -261,8 +262,8 @@ private:
       options.most_passes = 1;
       options.insertions = 0;
     }
-    // Who asks for more than the default wants it: progress comes in jumps there.
-    if (options.target > Mesh_options_3().min_dihedral_angle) options.persistence = long_persistence;
+    // Who asks for more than the default wants it: progress comes in jumps there, which no pace foretells.
+    if (!initial_ && options.target > Mesh_options_3().min_dihedral_angle) options.persistence = HUGE_VAL;
     options.seed = options_.seed + 2;
     options.time_limit = run_.time_left();
     options.go_on = [this](double) { return visit(0); };
@@ -274,7 +275,6 @@ private:
     if (options_.min_dihedral_angle < Perturb_options_3::as_far_as_it_goes) run_.may_go_on();
   }
 
-  static constexpr double long_persistence = 30;
   // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
   static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.3;
 

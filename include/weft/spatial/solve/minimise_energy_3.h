@@ -64,10 +64,11 @@ Solver_report minimise_energy_3(Restricted& mesh, const Criteria_3<typename Rest
 /// smoothing options; locks and `move_ratio` don't count.
 struct Energy_smoother_3
 {
-  using Moves_all = void;
+  using Moves_all = void; ///< tells it from smoothers that say where a vertex should be
 
-  Solver_options options;
+  Solver_options options; ///< energy, solver, tolerance, whether the boundary moves
 
+  /// Called by `smooth_3()`.
   template <class Restricted>
   Smooth_report_3 run(Restricted& mesh, const internal::Criteria_guard_3<Restricted>* guard,
                       const Smooth_options_3& smoothing) const
