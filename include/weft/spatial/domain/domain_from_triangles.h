@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// START HERE with triangles of any origin: the domain that they bound, as an oracle to mesh, and a record of what was
-// done to them. Closed surfaces stay as they are; others are mended.
+// The domain that triangles of any origin bound, as an oracle to mesh, and a record of what was done to them. Closed
+// surfaces stay as they are; others are mended.
 //
 //   #include <weft/IO/write_mesh_3.h>
 //   #include <weft/make_mesh_3.h>
 //   #include <weft/spatial/domain/domain_from_triangles.h>
+//   #include <iostream>
 //
-//   const auto domain = weft::domain_from_triangles(points, triangles); // std::vector of K::Point_3, and of indices
-//   for (const std::string& change : domain.changes()) std::cerr << change << "\n";
-//   weft::Criteria_3<K> criteria;
-//   criteria.size = 0.2;
-//   const auto result = weft::make_mesh_3(*domain.oracle, criteria);
-//   weft::IO::write_mesh_3("mesh.vtu", weft::tetrahedral_mesh(result.restricted));
+//   const std::vector<K::Point_3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+//   const std::vector<std::vector<int>> triangles = {{0, 2, 1}, {0, 1, 3}, {2, 1, 3}}; // one is missing, one turned
+//   over const auto domain = weft::domain_from_triangles(points, triangles); for (const std::string& change :
+//   domain.changes()) std::cerr << change << "\n"; weft::Criteria_3<K> criteria; criteria.size = 0.2; const auto result
+//   = weft::make_mesh_3(*domain.oracle, criteria); weft::IO::write_mesh_3("mesh.vtu",
+//   weft::tetrahedral_mesh(result.restricted));
 
 #ifndef WEFT_SPATIAL_DOMAIN_DOMAIN_FROM_TRIANGLES_H
 #define WEFT_SPATIAL_DOMAIN_DOMAIN_FROM_TRIANGLES_H

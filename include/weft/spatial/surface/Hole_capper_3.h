@@ -58,9 +58,11 @@ class Hole_capper_3
 
 public:
   /// \param which positions of the triangles that count, in ascending order.
-  Hole_capper_3(const Triangle_surface_3<K>& surface, std::vector<std::size_t> which) : points_(surface.points)
+  /// \param without_fins whether sheets that hang on others are left out first.
+  Hole_capper_3(const Triangle_surface_3<K>& surface, std::vector<std::size_t> which, bool without_fins)
+      : points_(surface.points)
   {
-    leave_out_fins(surface, which);
+    if (without_fins) leave_out_fins(surface, which);
     std::vector<Corners> triangles;
     for (const std::size_t t : which) triangles.push_back(surface.triangles[t]);
     Disjoint_parts parts(triangles.size());

@@ -8,6 +8,7 @@
 #define WEFT_SPATIAL_SURFACE_PLANE_SNAPPER_3_H
 
 #include <weft/internal/boxes/coordinates_3.h>
+#include <weft/internal/cgal_version.h>
 #include <weft/spatial/surface/surface_topology_3.h>
 
 #include <CGAL/box_intersection_d.h>
@@ -225,11 +226,11 @@ private:
     Exact::Point_3 p = exact_plane(first).projection(exact(v));
     if (second != none) {
       const auto common = CGAL::intersection(exact_plane(first), exact_plane(second));
-      const auto* line = common ? boost::get<Exact::Line_3>(&*common) : nullptr;
+      const auto* line = intersection_as<Exact::Line_3>(common);
       if (line) p = line->projection(exact(v));
       if (line && third != none) {
         const auto end = CGAL::intersection(*line, exact_plane(third));
-        if (const auto* corner = end ? boost::get<Exact::Point_3>(&*end) : nullptr) p = *corner;
+        if (const auto* corner = intersection_as<Exact::Point_3>(end)) p = *corner;
       }
     }
     if (norm(minus(xyz(p), xyz_[v])) <= 100 / flat * tolerance_) places_.emplace(v, p);

@@ -124,7 +124,7 @@ private:
     const Triangle_surface_3<K> all = triangle_surface();
     const std::vector<int> net = nets();
     Surface_regions_3<K> regions(all, net);
-    Hole_capper_3<K> capper(all, bounding_nothing(regions));
+    Hole_capper_3<K> capper(all, bounding_nothing(regions), true);
     capper.cap(options_.most_capped, [this] { ask_to_go_on(options_, "capping holes"); });
     for (const Open_part_3& part : capper.parts())
       for (const Hole_3& hole : part.holes) {
@@ -232,7 +232,7 @@ private:
       refuse_them("an open surface: caps of its holes would be " + percent(share) +
                   " of the area: close it, or give it a thickness");
     };
-    const Hole_capper_3<K> capper(all, left_out);
+    const Hole_capper_3<K> capper(all, left_out, false);
     double caps = 0;
     for (const Open_part_3& part : capper.parts()) {
       caps += part.area_of_caps();

@@ -7,6 +7,7 @@
 #define WEFT_SPATIAL_SURFACE_RESOLVE_INTERSECTIONS_3_H
 
 #include <weft/errors.h>
+#include <weft/internal/cgal_version.h>
 #include <weft/spatial/surface/check_surface_volume_3.h>
 #include <weft/spatial/surface/Mend_options_3.h>
 #include <weft/spatial/surface/Plane_snapper_3.h>
@@ -139,13 +140,13 @@ private:
       if (!is_corner(one, p) || !is_corner(one, q)) cuts_[s].emplace_back(p, q), ++number_of_cuts_;
       if (!is_corner(other, p) || !is_corner(other, q)) cuts_[t].emplace_back(p, q), ++number_of_cuts_;
     };
-    if (const auto* p = boost::get<Exact_point>(&*common)) {
+    if (const auto* p = intersection_as<Exact_point>(common)) {
       add(*p, *p);
-    } else if (const auto* segment = boost::get<Exact::Segment_3>(&*common)) {
+    } else if (const auto* segment = intersection_as<Exact::Segment_3>(common)) {
       add(segment->source(), segment->target());
-    } else if (const auto* triangle = boost::get<Exact_triangle>(&*common)) {
+    } else if (const auto* triangle = intersection_as<Exact_triangle>(common)) {
       for (int i = 0; i < 3; ++i) add(triangle->vertex(i), triangle->vertex(i + 1));
-    } else if (const auto* polygon = boost::get<std::vector<Exact_point>>(&*common)) {
+    } else if (const auto* polygon = intersection_as<std::vector<Exact_point>>(common)) {
       for (std::size_t i = 0; i < polygon->size(); ++i) add((*polygon)[i], (*polygon)[(i + 1) % polygon->size()]);
     }
     if (number_of_cuts_ > cuts_before) meeting_.push_back({s, t});
