@@ -131,7 +131,7 @@ public:
       if (may_be_forced(x))
         x = relative(
             x, forcing_angle(mesh_->oracle(), mesh_->incidence(), locations(facet), {{&p[0], &p[1], &p[2], &p[3]}}, o));
-      if (sliver_measure(x) <= worst || !is_inside(o, facet.first)) continue;
+      if (sliver_measure(x) <= worst || !is_inside(o)) continue;
       if (exceeds(x)) return no_good;
     }
     return worst;
@@ -156,7 +156,7 @@ public:
       std::array<Point, 4> p;
       if (!corners(facet, p)) return true;
       const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
-      return !guard_.measure().cell({&p[0], &p[1], &p[2], &p[3]}, o).is_bad() || !is_inside(o, facet.first);
+      return !guard_.measure().cell({&p[0], &p[1], &p[2], &p[3]}, o).is_bad() || !is_inside(o);
     });
   }
 
@@ -220,24 +220,11 @@ private:
     bool inside, labelled; ///< the oracle is asked when it matters
   };
 
-  /// Whether the circumcenter of a cell beside a cell of the mesh lies inside: from that of the other, if it is
-  /// labelled.
-  bool is_inside(const Point& p, Cell_handle beside) const
-  {
-    if (Restricted::Oracle::labels_first || !beside->is_classified() || Restricted::is_at_box(beside))
-      return mesh_->oracle().subdomain(p) != 0;
-    thread_local std::vector<typename Restricted::Surface_hit> hits;
-    hits.clear();
-    return (beside->subdomain() ^ mesh_->oracle().intersect(beside->circumcenter(), p, hits)) != 0;
-  }
+  bool is_inside(const Point& p) const { return mesh_->oracle().subdomain(p) != 0; }
 
   bool is_inside(Filler& f) const
   {
-    if (!f.labelled) {
-      int i = 0;
-      while (i < 3 && (!f.cell->neighbor(i)->is_classified() || Restricted::is_at_box(f.cell->neighbor(i)))) ++i;
-      f.inside = is_inside(f.cell->circumcenter(), f.cell->neighbor(i));
-    }
+    if (!f.labelled) f.inside = is_inside(f.cell->circumcenter());
     f.labelled = true;
     return f.inside;
   }

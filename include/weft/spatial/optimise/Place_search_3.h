@@ -67,7 +67,6 @@ public:
   const std::vector<Place>& places_for_move(const Target& target, const Point& origin, int trials, bool at_random)
   {
     target_ = target;
-    origin_ = origin;
     places_.clear();
     is_move_ = true;
     bool done = false;
@@ -194,22 +193,13 @@ private:
     const std::optional<Point> projected = project_on_location(mesh_.oracle(), p, target_.location);
     if (!projected) return Judge::no_good;
     p = *projected;
-    if (target_.location.dimension == 3 && leaves_subdomain(p)) return Judge::no_good;
+    if (target_.location.dimension == 3 && mesh_.oracle().subdomain(p) != target_.location.index) return Judge::no_good;
     if (!judge_.find_zone(p, target_.near)) return Judge::no_good;
     const double measure = judge_.judge(target_.limit);
     if (measure > target_.most || measure >= Judge::no_good) return Judge::no_good;
     if (!judge_.would_fit()) return ++report_.refused_cells, Judge::no_good;
     places_.push_back({p, measure, kind});
     return measure;
-  }
-
-  /// Short segments are cheaper to ask for than where a point lies, if the oracle doesn't begin with the latter.
-  bool leaves_subdomain(const Point& p) const
-  {
-    if (!is_move_ || Restricted::Oracle::labels_first) return mesh_.oracle().subdomain(p) != target_.location.index;
-    thread_local std::vector<typename Restricted::Surface_hit> hits;
-    hits.clear();
-    return mesh_.oracle().intersect(origin_, p, hits) != 0;
   }
 
   void keep_best_places()
@@ -231,7 +221,6 @@ private:
   std::mt19937 random_;
   Success_rates rates_{by_chance + 1};
   Target target_;          ///< its directions, once guided, are unit vectors or zero
-  Point origin_;           ///< where the vertex was that is moved
   bool is_move_ = true;    ///< or an insertion
   bool is_guided_ = false; ///< whether directions play a part in a move
   std::vector<Place> places_;

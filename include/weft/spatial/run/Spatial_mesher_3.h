@@ -211,6 +211,7 @@ private:
     // A sweep isn't broken off: it takes about twice the time of all that came before it.
     const bool fits = share == 1 || 2 * run_.seconds() < share * run_.time_left();
     if (options_.smoothing_sweeps == 0 || !fits) return true;
+    sort_in_memory(mesh_); // coarsening has left gaps
     Smooth_options_3 options;
     options.max_sweeps = options_.smoothing_sweeps;
     options.threads = options_.threads;
