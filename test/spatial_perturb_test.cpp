@@ -386,7 +386,7 @@ TEST_CASE("moves, insertions and removals can be undone to the last cell")
     perturber.set_kick_bound(std::cos(0.01));
     perturber.begin();
     std::mt19937 random(4);
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < 200; ++k) {
       const int id = static_cast<int>(random() % mesh.vertices().size());
       if (k % 4 == 0)
         perturber.remove(id, std::cos(0.01));
