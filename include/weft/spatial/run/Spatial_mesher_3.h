@@ -31,7 +31,6 @@
 #include <weft/spatial/run/Still_vertices_3.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -263,8 +262,6 @@ private:
       options.most_passes = 1;
       options.insertions = 0;
     }
-    // Who asks for more than the default wants it: progress comes in jumps there, which no pace foretells.
-    if (!initial_ && options.target > Mesh_options_3().min_dihedral_angle) options.persistence = HUGE_VAL;
     options.seed = options_.seed + 2;
     options.time_limit = run_.time_left();
     options.go_on = [this](double) { return visit(0); };
