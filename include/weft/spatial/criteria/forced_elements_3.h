@@ -59,11 +59,14 @@ bool is_forced(const Restricted& mesh, const typename Restricted::Restricted_fac
                             2 * std::asin(0.5 / largest_ratio));
 }
 
-/// The smallest angle in degrees at which a crease that one vertex lies on meets one that another lies on; 180 if it is
-/// 30 or more, from where on refinement ends with good shapes, or if one crease holds both.
+/// Below this angle in degrees creases force cells; from there on refinement ends with good shapes.
+inline constexpr double largest_forcing_crease_angle = 30;
+
+/// The smallest angle in degrees at which a crease that one vertex lies on meets one that another lies on; 180 if it
+/// isn't below a largest one, or if one crease holds both.
 template <class Oracle>
 double angle_between_creases(const Oracle& oracle, const Feature_incidence_3& incidence, const Vertex_location_3& a,
-                             const Vertex_location_3& b)
+                             const Vertex_location_3& b, double largest)
 {
   double smallest = 180;
   if (a.dimension < 0 || a.dimension > 1 || b.dimension < 0 || b.dimension > 1) return smallest;
@@ -74,7 +77,7 @@ double angle_between_creases(const Oracle& oracle, const Feature_incidence_3& in
     };
     share = share || holds(crease);
     oracle.visit_creases_at_small_angles(crease, [&](int c, double angle) {
-      if (holds(c) && angle < CGAL_PI / 6) smallest = (std::min)(smallest, angle * 180 / CGAL_PI);
+      if (holds(c) && angle * 180 < largest * CGAL_PI) smallest = (std::min)(smallest, angle * 180 / CGAL_PI);
     });
   };
   if (a.dimension == 1)
@@ -93,7 +96,7 @@ double angle_between_creases(const Oracle& oracle, const Feature_incidence_3& in
 template <class Oracle, class Point>
 double forcing_angle(const Oracle& oracle, const Feature_incidence_3& incidence,
                      const std::array<Vertex_location_3, 4>& locations, const std::array<const Point*, 4>& points,
-                     const Point& circumcenter)
+                     const Point& circumcenter, double largest_crease_angle = largest_forcing_crease_angle)
 {
   if (!oracle.has_mirror_images()) return 180;
   std::array<std::size_t, 2> ends{{0, 1}};
@@ -105,7 +108,8 @@ double forcing_angle(const Oracle& oracle, const Feature_incidence_3& incidence,
       shortest = d;
       ends = {{i, j}};
     }
-  const double angle = angle_between_creases(oracle, incidence, locations[ends[0]], locations[ends[1]]);
+  const double angle =
+      angle_between_creases(oracle, incidence, locations[ends[0]], locations[ends[1]], largest_crease_angle);
   for (const Vertex_location_3& at : locations)
     if (at.dimension > 2) return angle;
   const double radius = std::sqrt(CGAL::to_double(CGAL::squared_distance(circumcenter, *points[0])));
@@ -114,12 +118,13 @@ double forcing_angle(const Oracle& oracle, const Feature_incidence_3& incidence,
 
 /// The same of a cell that has its circumcenter.
 template <class Restricted>
-double forcing_angle(const Restricted& mesh, typename Restricted::Cell_handle c)
+double forcing_angle(const Restricted& mesh, typename Restricted::Cell_handle c,
+                     double largest_crease_angle = largest_forcing_crease_angle)
 {
   const auto at = [c](int i) { return c->vertex(i)->location(); };
   const auto point = [c](int i) { return &c->vertex(i)->point(); };
   return forcing_angle(mesh.oracle(), mesh.incidence(), {{at(0), at(1), at(2), at(3)}},
-                       {{point(0), point(1), point(2), point(3)}}, c->circumcenter());
+                       {{point(0), point(1), point(2), point(3)}}, c->circumcenter(), largest_crease_angle);
 }
 
 /// Whether small angles of the input force the shape of a cell.

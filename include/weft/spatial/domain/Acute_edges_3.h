@@ -53,7 +53,11 @@ public:
                         unit({{one[0] + two[0], one[1] + two[1], one[2] + two[2]}}),
                         pair.angle,
                         reach_at(pair.angle),
+                        pair.angle < largest_angle_with_twins * radians_per_degree,
                         {{complex.patches[pair.triangles[0]], complex.patches[pair.triangles[1]]}}});
+      Edge& edge = edges_.back();
+      for (std::size_t i = edges_.size() - 1; i-- > 0 && edges_[i].source == a && edges_[i].target == b;)
+        edges_[i].is_mirrored = edge.is_mirrored = edges_[i].is_mirrored || edge.is_mirrored;
       largest_reach_ = (std::max)(largest_reach_, edges_.back().reach);
       boxes.emplace_back();
       for (const Point* p : {&a, &b}) boxes.back().add(p->x(), p->y(), p->z());
@@ -107,7 +111,8 @@ public:
 
   /// Calls `visit(image)` for the mirror images of a point of the surface in the planes that bisect acute
   /// edges of whose sheets one holds it, as far as they are nearer to it than `spacing`. Of the edges of two patches
-  /// the nearest one counts. Edges from `largest_angle_with_twins` on don't.
+  /// the nearest one counts. Edges from `largest_angle_with_twins` on don't, unless sheets between others meet
+  /// there at less.
   /// \param patch that the point lies on; -1: on a crease or a feature vertex.
   template <class Visit>
   void visit_images(const Point& p, int patch, double spacing, const Visit& visit) const
@@ -124,8 +129,8 @@ public:
       const double height = dot_product(to, edge.normal), depth = dot_product(to, edge.inward);
       const double half = 0.5 * edge.angle, angle = std::atan2(std::abs(height), depth);
       const bool is_on_sheet = angle > 0.5 * half && angle < 1.5 * half;
-      if (edge.angle < largest_angle_with_twins * radians_per_degree && is_on_sheet && 2 * std::abs(height) < spacing &&
-          std::abs(height) > 1e-9 * spacing && (patch < 0 || patch == edge.patches[0] || patch == edge.patches[1]))
+      if (edge.is_mirrored && is_on_sheet && 2 * std::abs(height) < spacing && std::abs(height) > 1e-9 * spacing &&
+          (patch < 0 || patch == edge.patches[0] || patch == edge.patches[1]))
         images.push_back({distance, static_cast<std::size_t>(&edge - edges_.data()), mirrored(p, height, edge.normal)});
       return false;
     });
@@ -164,6 +169,7 @@ private:
     Xyz_3 inward; ///< in that plane, away from the edge, between its sides
     double angle; ///< radians
     double reach;
+    bool is_mirrored; ///< whether vertices beside it get twins
     std::array<int, 2> patches;
   };
 

@@ -64,7 +64,7 @@ public:
   {
     const Dihedral_cosines_3 x = cosines_of_cell(c);
     if (!may_be_forced(x)) return x;
-    return relative(x, forcing_angle(*mesh_, c));
+    return relative(x, forcing_angle(*mesh_, c, largest_crease_angle));
   }
 
   /// Whether a cell between sheets at a small angle is to stay: none of its vertices may move.
@@ -129,8 +129,8 @@ public:
       if (sliver_measure(x) <= worst) continue;
       const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
       if (may_be_forced(x))
-        x = relative(
-            x, forcing_angle(mesh_->oracle(), mesh_->incidence(), locations(facet), {{&p[0], &p[1], &p[2], &p[3]}}, o));
+        x = relative(x, forcing_angle(mesh_->oracle(), mesh_->incidence(), locations(facet),
+                                      {{&p[0], &p[1], &p[2], &p[3]}}, o, largest_crease_angle));
       if (sliver_measure(x) <= worst || !is_inside(o)) continue;
       if (exceeds(x)) return no_good;
     }
@@ -211,6 +211,8 @@ private:
   /// Parts of the angle of an edge: what is attained beside it, and what is asked for where that is more than `wanted`.
   static constexpr double part_of_angle = 0.8, least_part = 0.62;
   static constexpr double largest_forcing_angle = 40; ///< degrees
+  /// Cells at creases that meet at more than that can have the angle that is wanted elsewhere.
+  static constexpr double largest_crease_angle = 15;
 
   /// A cell that fills the place of a vertex taken away.
   struct Filler
