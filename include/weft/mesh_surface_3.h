@@ -63,6 +63,14 @@ template <class K>
 struct Takes_surface_3<Piecewise_smooth_complex_3<K>, Criteria_3<K>> : std::true_type
 {};
 
+/// What becomes of small elements beside edges with an angle below 40 degrees: leaving them tells sooner that creases
+/// are at fault, and refining them ends where twins can be everywhere.
+enum class Knife_edges_3
+{
+  left,
+  refined
+};
+
 /// One domain for a surface, and its mesher.
 template <class K>
 struct Surface_attempt_3
@@ -70,11 +78,12 @@ struct Surface_attempt_3
   using Oracle = Polyhedral_oracle_3<K>;
 
   Surface_attempt_3(const Piecewise_smooth_complex_3<K>& complex, const Criteria_3<K>& criteria,
-                    const Mesh_options_3& all_options, double time_left)
+                    const Mesh_options_3& all_options, double time_left, Knife_edges_3 knife_edges)
       : domain(std::make_shared<const Oracle>(complex)),
         options(with_time_limit(all_options, time_left)),
         mesher(*domain, criteria, options)
   {
+    if (knife_edges == Knife_edges_3::left) mesher.leave_knife_edges();
     mesher.meet_criteria();
     report = mesher.report();
   }
@@ -125,7 +134,9 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
     attempt.report.creases_given_up = given_up;
     return Mesh_surface_result_3<K>{attempt.domain, attempt.mesher.take_mesh(), std::move(attempt.report)};
   };
-  auto first = std::make_unique<Attempt>(complex, criteria, options, time_left());
+  using internal::Knife_edges_3;
+  auto first = std::make_unique<Attempt>(complex, criteria, options, time_left(),
+                                         options.give_up_creases ? Knife_edges_3::left : Knife_edges_3::refined);
   if (!options.give_up_creases || first->report.stop_reason != Stop_reason::exhausted) {
     first->optimise();
     return result(*first, 0);
@@ -140,13 +151,21 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
   std::size_t given_up = 0, given_up_for_best = 0;
   constexpr int rounds = 4;
   constexpr std::size_t much_less = 4;
+  if (first->domain->has_mirror_images()) {
+    auto trial = std::make_unique<Attempt>(complex, criteria, options, time_left(), Knife_edges_3::refined);
+    if (trial->report.ok()) {
+      trial->optimise();
+      return result(*trial, 0);
+    }
+    if (trial->has_ended() && much_less * trial->report.bad() < first->report.bad()) best = std::move(trial);
+  }
   for (int round = 1; round <= rounds; ++round) {
     const std::vector<char> all(which.size(), true);
     std::size_t dropped = internal::drop_creases(round == rounds ? all : which, complex);
     if (dropped == 0) dropped = internal::drop_creases(all, complex); // none of those left is at fault on its own
     if (dropped == 0) break;
     given_up += dropped;
-    auto trial = std::make_unique<Attempt>(complex, criteria, options, time_left());
+    auto trial = std::make_unique<Attempt>(complex, criteria, options, time_left(), Knife_edges_3::left);
     if (!trial->has_ended()) break; // out of time, or cancelled
     which = internal::creases_beside_bad_elements(trial->mesher.mesh(), criteria, complex);
     const bool is_good = trial->report.ok();

@@ -47,13 +47,16 @@ public:
   /// To be told of every new batch.
   void begin_batch() { left_ = 0; }
 
+  /// From now on leaves small elements at all acute edges, not only where twins don't end refinement.
+  void leave_knife_edges() { leaves_knife_edges_ = true; }
+
   /// Whether to leave an element as it is if that isn't needed: a small one beside an acute edge.
   bool is_left(const Point& center, double squared_radius)
   {
     const double least = acute_floor_ * measure_.size(center);
     if (!(squared_radius < least * least)) return false;
     const double angle = mesh_.oracle().acute_angle_at(center, std::sqrt(squared_radius));
-    const bool left = angle < 180 && angle >= largest_angle_with_twins; // twins end refinement at others
+    const bool left = angle < 180 && (leaves_knife_edges_ || angle >= largest_angle_with_twins);
     left_ += left;
     return left;
   }
@@ -135,7 +138,8 @@ private:
   const Restricted& mesh_;
   const Measure& measure_;
   Steiner_batch_3<Restricted>& batch_;
-  std::vector<Facet_id_3> mixed_up_;               ///< facets that have a vertex across an acute edge
+  std::vector<Facet_id_3> mixed_up_; ///< facets that have a vertex across an acute edge
+  bool leaves_knife_edges_ = false;
   double acute_floor_ = 0.125;                     ///< part of the size down to which elements there are refined
   std::size_t least_left_ = std::size_t(1) << 40;  ///< smallest value of the following before a lowering
   int steps_left_ = most_steps;                    ///< lowerings until that has to get smaller

@@ -73,6 +73,9 @@ public:
   Batch_refiner_3(const Batch_refiner_3&) = delete; // its parts know each other
   Batch_refiner_3& operator=(const Batch_refiner_3&) = delete;
 
+  /// See Acute_refinement_3.
+  void leave_knife_edges() { acute_.leave_knife_edges(); }
+
   /// One batch of at most `room` vertices. Nothing is inserted when all criteria hold, or where they don't, no Steiner
   /// point is possible.
   Batch_3 refine(std::size_t room)

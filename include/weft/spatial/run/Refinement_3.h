@@ -42,6 +42,9 @@ public:
         seeder_(mesh, criteria, options.max_vertices)
   {}
 
+  /// Leaves small elements unrefined at all acute edges. Elsewhere than where twins end refinement that is the rule.
+  void leave_knife_edges() { leaves_knife_edges_ = true; }
+
   Restricted& mesh() { return mesh_; }
   const Criteria_3<Kernel>& criteria() const { return criteria_; }
 
@@ -124,6 +127,7 @@ private:
   {
     Batch_refiner_3<Restricted> refiner(mesh_, criteria_, factor, with_cells, size_floor(), options_.seed + 1 + luck,
                                         factor == 1 ? settled_ : 0);
+    if (leaves_knife_edges_) refiner.leave_knife_edges();
     bool begins_again = false;
     for (; go_on && !begins_again && batches < most_batches; ++batches) {
       go_on = may_refine();
@@ -171,6 +175,7 @@ private:
   int settled_ = 0;          ///< see `Batch_refiner_3::settle()`
   std::size_t bad_left_ = 0; ///< elements that refinement looked at last and left
   bool has_seeded_missed_ = false;
+  bool leaves_knife_edges_ = false;
 };
 
 } // namespace weft::internal

@@ -80,6 +80,9 @@ public:
     return result;
   }
 
+  /// To be called before anything else, see Refinement_3.
+  void leave_knife_edges() { refinement_.leave_knife_edges(); }
+
   /// The first half of `run()`: refines until the criteria hold or nothing more can be done.
   void meet_criteria()
   {
