@@ -31,6 +31,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -63,12 +64,12 @@ template <class K>
 struct Takes_surface_3<Piecewise_smooth_complex_3<K>, Criteria_3<K>> : std::true_type
 {};
 
-/// What becomes of small elements beside edges with an angle below 40 degrees: leaving them tells sooner that creases
-/// are at fault, and refining them ends where twins can be everywhere.
-enum class Knife_edges_3
+/// What becomes of creases at small angles.
+enum class Small_angles_3
 {
-  left,
-  refined
+  blamed,   ///< what is bad there tells that creases are at fault; small elements beside knife edges are left, which
+            ///< tells sooner
+  respected ///< they excuse the shapes of cells, and everything is refined: that ends where twins can be everywhere
 };
 
 /// One domain for a surface, and its mesher.
@@ -78,12 +79,12 @@ struct Surface_attempt_3
   using Oracle = Polyhedral_oracle_3<K>;
 
   Surface_attempt_3(const Piecewise_smooth_complex_3<K>& complex, const Criteria_3<K>& criteria,
-                    const Mesh_options_3& all_options, double time_left, Knife_edges_3 knife_edges)
-      : domain(std::make_shared<const Oracle>(complex)),
+                    const Mesh_options_3& all_options, double time_left, Small_angles_3 small_angles)
+      : domain(std::make_shared<const Oracle>(complex, small_angles == Small_angles_3::respected)),
         options(with_time_limit(all_options, time_left)),
         mesher(*domain, criteria, options)
   {
-    if (knife_edges == Knife_edges_3::left) mesher.leave_knife_edges();
+    if (small_angles == Small_angles_3::blamed) mesher.leave_knife_edges();
     mesher.meet_criteria();
     report = mesher.report();
   }
@@ -134,9 +135,9 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
     attempt.report.creases_given_up = given_up;
     return Mesh_surface_result_3<K>{attempt.domain, attempt.mesher.take_mesh(), std::move(attempt.report)};
   };
-  using internal::Knife_edges_3;
+  using internal::Small_angles_3;
   auto first = std::make_unique<Attempt>(complex, criteria, options, time_left(),
-                                         options.give_up_creases ? Knife_edges_3::left : Knife_edges_3::refined);
+                                         options.give_up_creases ? Small_angles_3::blamed : Small_angles_3::respected);
   if (!options.give_up_creases || first->report.stop_reason != Stop_reason::exhausted) {
     first->optimise();
     return result(*first, 0);
@@ -151,21 +152,22 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
   std::size_t given_up = 0, given_up_for_best = 0;
   constexpr int rounds = 4;
   constexpr std::size_t much_less = 4;
-  if (first->domain->has_mirror_images()) {
-    auto trial = std::make_unique<Attempt>(complex, criteria, options, time_left(), Knife_edges_3::refined);
-    if (trial->report.ok()) {
-      trial->optimise();
-      return result(*trial, 0);
-    }
-    if (trial->has_ended() && much_less * trial->report.bad() < first->report.bad()) best = std::move(trial);
-  }
+  // Short creases are folds of a scan, and not missed.
+  const double size = criteria.size.smallest();
+  const double long_crease = size > 0 ? 2 * size : std::numeric_limits<double>::infinity();
+  double longest = 0;
+  std::unique_ptr<Piecewise_smooth_complex_3<K>> whole;
+  if (first->domain->has_mirror_images()) whole = std::make_unique<Piecewise_smooth_complex_3<K>>(complex);
   for (int round = 1; round <= rounds; ++round) {
     const std::vector<char> all(which.size(), true);
-    std::size_t dropped = internal::drop_creases(round == rounds ? all : which, complex);
+    const std::vector<char>& blamed = round == rounds ? all : which;
+    const double longest_blamed = internal::longest_found_crease(complex, blamed);
+    std::size_t dropped = internal::drop_creases(blamed, complex);
+    longest = (std::max)(longest, dropped > 0 ? longest_blamed : internal::longest_found_crease(complex, all));
     if (dropped == 0) dropped = internal::drop_creases(all, complex); // none of those left is at fault on its own
     if (dropped == 0) break;
     given_up += dropped;
-    auto trial = std::make_unique<Attempt>(complex, criteria, options, time_left(), Knife_edges_3::left);
+    auto trial = std::make_unique<Attempt>(complex, criteria, options, time_left(), Small_angles_3::blamed);
     if (!trial->has_ended()) break; // out of time, or cancelled
     which = internal::creases_beside_bad_elements(trial->mesher.mesh(), criteria, complex);
     const bool is_good = trial->report.ok();
@@ -174,6 +176,14 @@ Mesh_surface_result_3<K> mesh_surface_3(Piecewise_smooth_complex_3<K> complex, c
       given_up_for_best = given_up;
     }
     if (is_good) break;
+  }
+  if (whole && !(best && best->report.ok() && longest < long_crease)) {
+    auto trial = std::make_unique<Attempt>(*whole, criteria, options, time_left(), Small_angles_3::respected);
+    if (trial->report.ok() ||
+        (trial->has_ended() && much_less * trial->report.bad() < (best ? best : first)->report.bad())) {
+      best = std::move(trial);
+      given_up_for_best = 0;
+    }
   }
   if (best) {
     best->optimise();

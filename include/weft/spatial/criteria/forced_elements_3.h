@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -87,6 +88,19 @@ double angle_between_creases(const Oracle& oracle, const Feature_incidence_3& in
   return share ? 180 : smallest;
 }
 
+template <class Oracle>
+using Creases_force_cells_of = decltype(std::declval<const Oracle&>().creases_force_cells());
+
+/// Whether creases excuse cells: they do unless a domain says otherwise, whose creases may be given up.
+template <class Oracle>
+bool creases_force_cells(const Oracle& oracle)
+{
+  if constexpr (answers_v<bool, Creases_force_cells_of, Oracle>)
+    return oracle.creases_force_cells();
+  else
+    return static_cast<void>(oracle), true;
+}
+
 /// The small angle of the input in degrees that forces the shape of a cell; 180 if there is none. Either its shortest
 /// edge joins two creases that meet at the angle: near where they meet no cell with that edge is better (Miller, Pav
 /// and Walkington, "When and why Delaunay refinement algorithms work", 2005, for edges in the plane). Or it would fill
@@ -108,8 +122,9 @@ double forcing_angle(const Oracle& oracle, const Feature_incidence_3& incidence,
       shortest = d;
       ends = {{i, j}};
     }
-  const double angle =
-      angle_between_creases(oracle, incidence, locations[ends[0]], locations[ends[1]], largest_crease_angle);
+  const double angle = creases_force_cells(oracle) ? angle_between_creases(oracle, incidence, locations[ends[0]],
+                                                                           locations[ends[1]], largest_crease_angle)
+                                                   : 180;
   for (const Vertex_location_3& at : locations)
     if (at.dimension > 2) return angle;
   const double radius = std::sqrt(CGAL::to_double(CGAL::squared_distance(circumcenter, *points[0])));

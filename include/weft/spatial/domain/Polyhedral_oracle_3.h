@@ -67,7 +67,9 @@ public:
   /// O(n log n) for n triangles.
   /// \pre The triangles form closed oriented surfaces without self-intersections; `piecewise_smooth_complex()` checks.
   /// \throws Domain_error with 2^30 or more points or triangles.
-  explicit Polyhedral_oracle_3(Piecewise_smooth_complex_3<K> complex) : complex_(std::move(complex))
+  /// \param creases_force_cells whether creases that meet at small angles excuse the shapes of cells between them.
+  explicit Polyhedral_oracle_3(Piecewise_smooth_complex_3<K> complex, bool creases_force_cells = true)
+      : complex_(std::move(complex)), creases_force_cells_(creases_force_cells)
   {
     constexpr std::size_t limit = std::size_t(1) << 30;
     if (complex_.triangles.size() >= limit || complex_.points.size() >= limit)
@@ -215,6 +217,9 @@ public:
         },
         visit);
   }
+
+  /// Whether creases that meet at small angles excuse the shapes of cells between them.
+  bool creases_force_cells() const { return creases_force_cells_; }
 
   /// Calls `visit(crease, angle in radians)` for the creases that meet a crease at a small angle.
   template <class Visit>
@@ -401,6 +406,7 @@ private:
   internal::Salient_features_3<K> salient_;
   internal::Acute_edges_3<K> acute_edges_;
   internal::Mirror_images_3<K> mirror_images_;
+  bool creases_force_cells_;
 };
 
 } // namespace weft

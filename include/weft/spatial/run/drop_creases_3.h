@@ -6,6 +6,7 @@
 #ifndef WEFT_SPATIAL_RUN_DROP_CREASES_3_H
 #define WEFT_SPATIAL_RUN_DROP_CREASES_3_H
 
+#include <weft/internal/boxes/coordinates_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/criteria/visit_bad_elements_3.h>
 #include <weft/spatial/surface/derive_features_3.h>
@@ -46,6 +47,22 @@ std::vector<char> creases_beside_bad_elements(const Restricted& mesh, const Crit
         is_bad[c] = true;
   }
   return is_bad;
+}
+
+/// Length of the longest of some creases that were found by angle, in the input's units.
+template <class K>
+double longest_found_crease(const Piecewise_smooth_complex_3<K>& complex, const std::vector<char>& which)
+{
+  double longest = 0;
+  for (std::size_t c = 0; c < complex.creases.size(); ++c) {
+    double length = 0;
+    if (which[c] && !complex.creases[c].given)
+      for_each_crease_edge(complex.creases[c], [&](std::size_t a, std::size_t b) {
+        length += norm(minus(xyz(complex.points[b]), xyz(complex.points[a])));
+      });
+    longest = (std::max)(longest, length);
+  }
+  return longest;
 }
 
 /// A domain without some of its creases; given ones stay. Corners where two creases are left become cusps, those where
