@@ -57,7 +57,7 @@ std::string title(unsigned seed, const Thin_surface& thing)
 
 auto complex_of(const Thin_surface& thing)
 {
-  return weft::piecewise_smooth_complex(thing.surface.points, thing.surface.triangles, weft::Feature_options{}, {});
+  return weft::piecewise_smooth_complex(thing.surface.points, thing.surface.triangles, weft::Feature_options{});
 }
 
 struct Outcome

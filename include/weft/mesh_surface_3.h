@@ -118,7 +118,9 @@ struct Surface_attempt_3
 
 /// Meshes the domain that a surface bounds, and gives creases up that were found by angle where only they keep the
 /// criteria from holding: first those beside bad elements, in the end all. Creases that were given stay. Where giving
-/// up doesn't help much, the mesh is the one with all creases. The report says how many were given up.
+/// up doesn't help much, the mesh is the one with all creases; so it is where creases longer than twice the size would
+/// go, and all criteria hold with them but for cells that small angles between creases force. The report says how many
+/// were given up.
 /// \param complex what `piecewise_smooth_complex()` makes of a surface, or of several.
 /// \throws Option_error for criteria or options out of range, or if a field of the criteria isn't positive.
 template <class K>
