@@ -31,7 +31,7 @@ struct Initial_vertices_3
   /// Whether they are those of a mesh of the same domain, so that all can be inserted at once, and what refinement
   /// leaves alone stays as it is.
   bool is_adaptation = false;
-  std::vector<char> changed; ///< then, by vertex, whether it is to be smoothed all the same
+  std::vector<char> changed{}; ///< then, by vertex, whether it is to be smoothed all the same
 };
 
 /// Inserts the vertices of the boundary and those that have to stay. \returns the others, for `insert_interior()`.
