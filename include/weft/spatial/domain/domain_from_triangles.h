@@ -9,11 +9,15 @@
 //   #include <iostream>
 //
 //   const std::vector<K::Point_3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-//   const std::vector<std::vector<int>> triangles = {{0, 2, 1}, {0, 1, 3}, {2, 1, 3}}; // one is missing, one turned
-//   over const auto domain = weft::domain_from_triangles(points, triangles); for (const std::string& change :
-//   domain.changes()) std::cerr << change << "\n"; weft::Criteria_3<K> criteria; criteria.size = 0.2; const auto result
-//   = weft::make_mesh_3(*domain.oracle, criteria); weft::IO::write_mesh_3("mesh.vtu",
-//   weft::tetrahedral_mesh(result.restricted));
+//   const std::vector<std::vector<int>> triangles = {{0, 2, 1}, {0, 1, 3}, {2, 1, 3}};
+//   const auto domain = weft::domain_from_triangles(points, triangles);
+//   for (const std::string& change : domain.changes()) std::cerr << change << "\n";
+//   weft::Criteria_3<K> criteria;
+//   criteria.size = 0.2;
+//   const auto result = weft::make_mesh_3(*domain.oracle, criteria);
+//   weft::IO::write_mesh_3("mesh.vtu", weft::tetrahedral_mesh(result.restricted));
+//
+// Of these triangles one is missing, and one is turned over.
 
 #ifndef WEFT_SPATIAL_DOMAIN_DOMAIN_FROM_TRIANGLES_H
 #define WEFT_SPATIAL_DOMAIN_DOMAIN_FROM_TRIANGLES_H

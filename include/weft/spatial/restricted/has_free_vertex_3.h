@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Whether a cell of a restricted triangulation can change when vertices that aren't fixed move.
 
 #ifndef WEFT_SPATIAL_RESTRICTED_HAS_FREE_VERTEX_3_H
 #define WEFT_SPATIAL_RESTRICTED_HAS_FREE_VERTEX_3_H

@@ -7,6 +7,7 @@
 #define WEFT_SPATIAL_SURFACE_FACET_CLEANER_3_H
 
 #include <weft/errors.h>
+#include <weft/internal/boxes/Box_tree_builder_3.h>
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/internal/boxes/Point_tree_3.h>
 #include <weft/spatial/surface/derive_features_3.h>
