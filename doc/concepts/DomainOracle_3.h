@@ -183,13 +183,6 @@ public:
 
   /// Optional: whether such creases excuse the shapes of cells between them. Without it they do.
   bool creases_force_cells() const { return model_.creases_force_cells(); }
-
-  /// Optional: whether vertices on the other side of the edges whose sides a ball reaches both end refinement there.
-  /// Without it they do where the smallest angle is below 40 degrees.
-  bool twins_end_refinement_at(const Point& center, double radius) const
-  {
-    return model_.twins_end_refinement_at(center, radius);
-  }
   /// @}
 
 private:

@@ -8,7 +8,6 @@
 #define WEFT_SPATIAL_CRITERIA_FACET_TURN_3_H
 
 #include <weft/internal/boxes/coordinates_3.h>
-#include <weft/spatial/domain/sharp_edges_3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,12 +28,15 @@ struct Has_normals_3<Oracle, std::void_t<decltype(std::declval<const Oracle&>().
 /// Facets whose normal makes less than that cosine with the surface's are turned away from it.
 constexpr double least_cosine_to_surface = 0.2;
 
-/// Whether there is an edge that is sharp but no crease in the surface Delaunay ball of a facet or half its radius
-/// beside it: refinement beside such edges goes on to the size floor, and makes nothing better.
+/// Whether there is an edge that is sharp but no crease in the surface Delaunay ball of a facet or a little beside it:
+/// refinement beside such edges goes on to the size floor, and makes nothing better.
 template <class Oracle, class Facet>
 bool is_beside_sharp_edge(const Oracle& oracle, const Facet& f)
 {
-  return is_at_sharp_edge(oracle, f.steiner, 2.25 * f.squared_radius, f.patch);
+  bool found = oracle.is_at_acute_edge(f.steiner, std::sqrt(f.squared_radius));
+  oracle.visit_ridges(f.steiner, f.squared_radius, f.patch,
+                      [&found](const auto&, const auto&, bool attracts) { found = found || !attracts; });
+  return found;
 }
 
 /// Which points of a facet are asked about.

@@ -12,7 +12,6 @@
 #include <weft/internal/boxes/nearest_point_3.h>
 #include <weft/spatial/domain/sheet_pairs_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
-#include <weft/spatial/surface/derive_features_3.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 
 #include <algorithm>
@@ -21,7 +20,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <set>
 #include <tuple>
 #include <vector>
 
@@ -46,24 +44,17 @@ public:
   Acute_edges_3(const Piecewise_smooth_complex_3<K>& complex, double largest_angle)
   {
     std::vector<Box_3> boxes;
-    std::set<std::array<std::size_t, 2>> marked;
-    for (const auto& crease : complex.creases)
-      for_each_crease_edge(crease, [&marked](std::size_t a, std::size_t b) {
-        marked.insert({{(std::min)(a, b), (std::max)(a, b)}});
-      });
     for (const Sheet_pair_3& pair : sheet_pairs_3(complex, largest_angle * radians_per_degree)) {
       const Point &a = complex.points[pair.source], &b = complex.points[pair.target];
       const auto &one = pair.away[0], &two = pair.away[1];
-      edges_.push_back(
-          {a,
-           b,
-           unit(minus(one, two)),
-           unit({{one[0] + two[0], one[1] + two[1], one[2] + two[2]}}),
-           pair.angle,
-           reach_at(pair.angle),
-           pair.angle<largest_angle_with_twins * radians_per_degree,
-                      marked.count({{(std::min)(pair.source, pair.target), (std::max)(pair.source, pair.target)}})> 0,
-           {{complex.patches[pair.triangles[0]], complex.patches[pair.triangles[1]]}}});
+      edges_.push_back({a,
+                        b,
+                        unit(minus(one, two)),
+                        unit({{one[0] + two[0], one[1] + two[1], one[2] + two[2]}}),
+                        pair.angle,
+                        reach_at(pair.angle),
+                        pair.angle < largest_angle_with_twins * radians_per_degree,
+                        {{complex.patches[pair.triangles[0]], complex.patches[pair.triangles[1]]}}});
       Edge& edge = edges_.back();
       for (std::size_t i = edges_.size() - 1; i-- > 0 && edges_[i].source == a && edges_[i].target == b;)
         edges_[i].is_mirrored = edge.is_mirrored = edges_[i].is_mirrored || edge.is_mirrored;
@@ -94,16 +85,6 @@ public:
       return false;
     });
     return smallest;
-  }
-
-  /// Whether twins beside such edges end refinement: all of them are creases, on which vertices stay, and have twins.
-  bool twins_end_refinement(const Point& center, double radius) const
-  {
-    bool found = false;
-    visit_near(center, radius, [&](const Edge& edge, const Point&, double) {
-      return found = !edge.is_marked || edge.angle >= largest_angle_with_twins * radians_per_degree;
-    });
-    return !found;
   }
 
   /// The mirror image of `p` in the plane that bisects the acute edge nearest to `center`, if the ball mixes up the
@@ -189,7 +170,6 @@ private:
     double angle; ///< radians
     double reach;
     bool is_mirrored; ///< whether vertices beside it get twins
-    bool is_marked;   ///< as a crease
     std::array<int, 2> patches;
   };
 

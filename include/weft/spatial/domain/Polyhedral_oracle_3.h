@@ -183,12 +183,6 @@ public:
   /// The smallest angle of the acute edges that a ball mixes up the sides of, in degrees; 180 if there is none.
   double acute_angle_at(const Point& center, double radius) const { return acute_edges_.angle_near(center, radius); }
 
-  /// Whether twins end refinement beside the acute edges that a ball mixes up the sides of.
-  bool twins_end_refinement_at(const Point& center, double radius) const
-  {
-    return acute_edges_.twins_end_refinement(center, radius);
-  }
-
   /// The mirror image of a point of the boundary on the other side of the acute edge nearest to the center of a ball,
   /// if the ball mixes up the sides of that edge and its center lies on the other side. Returns whether that is so and
   /// the boundary is there, up to a quarter of the distance between the sides.

@@ -6,7 +6,6 @@
 #ifndef WEFT_SPATIAL_REFINE_ACUTE_REFINEMENT_3_H
 #define WEFT_SPATIAL_REFINE_ACUTE_REFINEMENT_3_H
 
-#include <weft/internal/Answers.h>
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/domain/Acute_edges_3.h>
 #include <weft/spatial/refine/Bad_elements_list_3.h>
@@ -18,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -57,9 +55,8 @@ public:
   {
     const double least = acute_floor_ * measure_.size(center);
     if (!(squared_radius < least * least)) return false;
-    const double radius = std::sqrt(squared_radius);
-    const bool left = mesh_.oracle().is_at_acute_edge(center, radius) &&
-                      (leaves_knife_edges_ || !twins_end_refinement(center, radius));
+    const double angle = mesh_.oracle().acute_angle_at(center, std::sqrt(squared_radius));
+    const bool left = angle < 180 && (leaves_knife_edges_ || angle >= largest_angle_with_twins);
     left_ += left;
     return left;
   }
@@ -101,18 +98,6 @@ public:
   }
 
 private:
-  template <class Oracle>
-  using Twins_end_refinement_of =
-      decltype(std::declval<const Oracle&>().twins_end_refinement_at(std::declval<const Point&>(), 1.));
-
-  bool twins_end_refinement(const Point& center, double radius) const
-  {
-    if constexpr (answers_v<bool, Twins_end_refinement_of, typename Restricted::Oracle>)
-      return mesh_.oracle().twins_end_refinement_at(center, radius);
-    else
-      return mesh_.oracle().acute_angle_at(center, radius) < largest_angle_with_twins;
-  }
-
   /// Whether a facet belongs to one side of an acute edge and has a vertex on the other, and which one.
   int vertex_across(const Restricted_facet& f, Surface_hit& image) const
   {
