@@ -7,6 +7,7 @@
 #ifndef WEFT_SPATIAL_CRITERIA_FORCED_ELEMENTS_3_H
 #define WEFT_SPATIAL_CRITERIA_FORCED_ELEMENTS_3_H
 
+#include <weft/internal/Answers.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
