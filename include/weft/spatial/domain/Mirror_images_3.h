@@ -15,6 +15,7 @@
 #include <weft/spatial/domain/oracle_hits_3.h>
 #include <weft/spatial/domain/Patched_surface_3.h>
 #include <weft/spatial/domain/sheet_pairs_3.h>
+#include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 
 #include <CGAL/squared_distance_3.h>
