@@ -15,8 +15,8 @@ namespace weft {
 
 /// The CVT energy of the bounded Voronoi diagram of a mesh, in the fourth power of the unit of length times that of the
 /// density. The gradient holds for moves that leave the domain as it is: of points inside in all directions, of those
-/// on straight constraints along these. O(n log n). \param density callable, point -> positive number; for edge lengths
-/// proportional to a size, size^-4. Integrated over
+/// on straight constraints along these. O(n log n).
+/// \param density callable, point -> positive number; for edge lengths proportional to a size, size^-4. Integrated over
 ///        each of the about twelve pieces of a cell by a rule for polynomials of the third degree.
 /// \pre the mesh is constrained Delaunay with respect to its edges.
 template <class K, class Density>

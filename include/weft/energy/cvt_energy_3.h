@@ -15,8 +15,8 @@ namespace weft {
 
 /// The CVT energy, in the fifth power of the unit of length times that of the density. Voronoi cells end at the
 /// boundary of the mesh; what of them lies beyond counts with sign, so that they add up to the domain. The gradient is
-/// by all points, those of the boundary included, which change the domain. O(n log n). \param density callable, point
-/// -> positive number; for edge lengths proportional to a size, size^-5. Integrated over
+/// by all points, those of the boundary included, which change the domain. O(n log n).
+/// \param density callable, point -> positive number; for edge lengths proportional to a size, size^-5. Integrated over
 ///        each of the 24 pieces of a cell by a rule for polynomials of the third degree.
 /// \pre cells are positively oriented, and Delaunay.
 template <class K, class Density>

@@ -17,8 +17,8 @@
 namespace weft {
 
 /// The ODT energy, in the fifth power of the unit of length; without unit in the metric of sizes. The gradient is by
-/// all points, those of the boundary included, which change the domain that is integrated over. O(n log n). \param
-/// sizes edge lengths wanted at the points, in whose metric lengths and volumes are measured; they move along
+/// all points, those of the boundary included, which change the domain that is integrated over. O(n log n).
+/// \param sizes edge lengths wanted at the points, in whose metric lengths and volumes are measured; they move along
 ///        with the points. Empty: lengths as they are.
 /// \pre cells are positively oriented.
 /// \throws Option_error if sizes are too few or not positive.

@@ -122,38 +122,53 @@ double normalise(const Simplices<d>& mesh, Energy_terms<d>& terms)
   return factor;
 }
 
+/// What the ODT energy of a simplex and its derivatives are made of.
+template <std::size_t d>
+struct Odt_simplex
+{
+  Odt_simplex(const Simplices<d>& mesh, const typename Simplices<d>::Simplex& s) : metric(metric_factors(mesh, s))
+  {
+    for (std::size_t i = 0; i <= d; ++i) points[i] = mesh.points[s[i]];
+    measure = measure_simplex(points);
+    scale = metric.measure / ((d + 1.0) * (d + 2));
+    double stiffness = 0;
+    for (std::size_t i = 0; i <= d; ++i)
+      for (std::size_t j = i + 1; j <= d; ++j) {
+        const auto edge = difference(points[i], points[j]);
+        const double factor = metric.squared_length[i][j];
+        sum += factor * dot(edge, edge);
+        stiffness += factor;
+        add_to(slope[i], 2 * factor, edge);
+        add_to(slope[j], -2 * factor, edge);
+      }
+    curvature = 2 * (d + 2.0) * scale * stiffness / (d * (d + 1.0) / 2);
+  }
+
+  Metric_factors<d> metric;
+  std::array<Coordinates<d>, d + 1> points, slope{}; ///< slope: gradients of the sum
+  Simplex_measure<d> measure;
+  double sum = 0;   ///< of the squared lengths of the edges
+  double scale;     ///< the energy is that times the measure times the sum
+  double curvature; ///< what of the second derivative by one vertex is left around a whole star, over the measure
+};
+
 /// The ODT energy and its gradient, that of boundary vertices included: the domain of the mesh changes with them.
 /// Linear.
 template <std::size_t d>
 Energy_terms<d> odt_terms(const Simplices<d>& mesh, bool with_weights = false)
 {
-  constexpr double norm = 1 / ((d + 1.0) * (d + 2));
   Energy_terms<d> result;
   result.gradient.assign(mesh.points.size(), Coordinates<d>{});
   result.diagonal.assign(mesh.points.size(), 0);
   if (with_weights) result.weights.reserve(mesh.simplices.size() * d * (d + 1) / 2);
   for (const auto& s : mesh.simplices) {
-    std::array<Coordinates<d>, d + 1> p;
-    for (std::size_t i = 0; i <= d; ++i) p[i] = mesh.points[s[i]];
-    const auto measure = measure_simplex(p);
-    const auto metric = metric_factors(mesh, s);
-    const double mass = norm * metric.measure * measure.value;
-    double sum = 0, stiffness = 0;
-    for (std::size_t i = 0; i <= d; ++i)
-      for (std::size_t j = i + 1; j <= d; ++j) {
-        const auto edge = difference(p[i], p[j]);
-        const double factor = metric.squared_length[i][j];
-        sum += factor * dot(edge, edge);
-        stiffness += factor;
-        add_to(result.gradient[s[i]], 2 * mass * factor, edge);
-        add_to(result.gradient[s[j]], -2 * mass * factor, edge);
-      }
-    result.value += mass * sum;
-    // Of the second derivative by one vertex what is left around a whole star: 2 |T| / (d + 1).
-    const double curvature = 2 * (d + 2.0) * mass * stiffness / (d * (d + 1.0) / 2);
+    const Odt_simplex<d> t(mesh, s);
+    const double mass = t.scale * t.measure.value, curvature = t.curvature * t.measure.value;
+    result.value += mass * t.sum;
     for (std::size_t i = 0; i <= d; ++i) {
-      add_to(result.gradient[s[i]], norm * metric.measure * sum, measure.gradient[i]);
-      result.diagonal[s[i]] += curvature;
+      add_to(result.gradient[s[i]], mass, t.slope[i]);
+      add_to(result.gradient[s[i]], t.scale * t.sum, t.measure.gradient[i]);
+      result.diagonal[s[i]] += curvature; // that sums up to 2 |star| / (d + 1)
       for (std::size_t j = i + 1; with_weights && j <= d; ++j) result.weights.push_back({s[i], s[j], curvature / d});
     }
   }

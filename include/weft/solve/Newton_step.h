@@ -29,6 +29,15 @@ struct Jacobian_block
   std::array<Coordinates<d>, d> entries;
 };
 
+/// Multiplies all blocks with f.
+template <std::size_t d>
+void scale_blocks(std::vector<Jacobian_block<d>>& blocks, double f)
+{
+  for (auto& block : blocks)
+    for (auto& row : block.entries)
+      for (double& x : row) x *= f;
+}
+
 /// Adds f times the outer product a b^T.
 template <std::size_t d>
 void add_outer(std::array<Coordinates<d>, d>& m, double f, const Coordinates<d>& a, const Coordinates<d>& b)

@@ -49,37 +49,22 @@ inline void add_second_derivative(std::array<Coordinates<3>, 3>& m, double f, co
 template <std::size_t d>
 std::vector<Jacobian_block<d>> odt_jacobian_blocks(const Simplices<d>& mesh, const Energy_terms<d>& terms)
 {
-  constexpr double norm = 1 / ((d + 1.0) * (d + 2));
   std::vector<Jacobian_block<d>> result;
   result.reserve(mesh.simplices.size() * (d + 1) * (d + 1));
   for (const auto& s : mesh.simplices) {
-    std::array<Coordinates<d>, d + 1> p, slope{}; // slope: gradients of the sum of squared lengths
-    for (std::size_t i = 0; i <= d; ++i) p[i] = mesh.points[s[i]];
-    const auto measure = measure_simplex(p);
-    const auto metric = metric_factors(mesh, s);
-    double sum = 0, stiffness = 0;
-    for (std::size_t i = 0; i <= d; ++i)
-      for (std::size_t j = i + 1; j <= d; ++j) {
-        const auto edge = difference(p[i], p[j]);
-        const double factor = metric.squared_length[i][j];
-        sum += factor * dot(edge, edge);
-        stiffness += factor;
-        add_to(slope[i], 2 * factor, edge);
-        add_to(slope[j], -2 * factor, edge);
-      }
-    const double scale = norm * metric.measure, curvature = 2 * (d + 2.0) * scale * stiffness / (d * (d + 1.0) / 2);
+    const Odt_simplex<d> t(mesh, s);
     for (std::size_t i = 0; i <= d; ++i)
       for (std::size_t k = 0; k <= d; ++k) {
         Jacobian_block<d> block{s[i], s[k], {}};
-        add_outer(block.entries, scale, measure.gradient[i], slope[k]);
-        add_outer(block.entries, scale, slope[i], measure.gradient[k]);
-        add_second_derivative(block.entries, scale * sum, p, i, k);
+        add_outer(block.entries, t.scale, t.measure.gradient[i], t.slope[k]);
+        add_outer(block.entries, t.scale, t.slope[i], t.measure.gradient[k]);
+        add_second_derivative(block.entries, t.scale * t.sum, t.points, i, k);
         double same = 0; // of the slope by its own vertex; minus the factor of the edge by another one
         for (std::size_t j = 0; j <= d; ++j)
-          if (j != i) same += metric.squared_length[i][j];
-        const double twist = scale * measure.value * 2 * (i == k ? same : -metric.squared_length[i][k]);
+          if (j != i) same += t.metric.squared_length[i][j];
+        const double twist = t.scale * t.measure.value * 2 * (i == k ? same : -t.metric.squared_length[i][k]);
         for (std::size_t c = 0; c < d; ++c) block.entries[c][c] += twist;
-        add_outer(block.entries, -curvature / terms.diagonal[s[i]], terms.gradient[s[i]], measure.gradient[k]);
+        add_outer(block.entries, -t.curvature / terms.diagonal[s[i]], terms.gradient[s[i]], t.measure.gradient[k]);
         result.push_back(block);
       }
   }

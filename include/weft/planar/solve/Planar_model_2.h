@@ -115,9 +115,7 @@ public:
       return mesh_.is_uniform() ? cvt_jacobian_blocks(simplices_, now, Constant_density())
                                 : cvt_jacobian_blocks(simplices_, now, density());
     auto blocks = odt_jacobian_blocks(simplices_, now);
-    for (auto& block : blocks)
-      for (auto& row : block.entries)
-        for (double& x : row) x *= factor_;
+    scale_blocks(blocks, factor_);
     return blocks;
   }
 

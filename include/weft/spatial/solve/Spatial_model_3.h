@@ -137,9 +137,7 @@ public:
     const Energy_terms<3> now = terms_of_mesh(false);
     auto blocks = options_.energy == Energy::odt ? odt_jacobian_blocks(simplices_, now)
                                                  : cvt_jacobian_blocks(simplices_, now, Constant_density());
-    for (auto& block : blocks)
-      for (auto& row : block.entries)
-        for (double& x : row) x *= factor_;
+    scale_blocks(blocks, factor_);
     return blocks;
   }
 
