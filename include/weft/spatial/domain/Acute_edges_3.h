@@ -39,12 +39,12 @@ public:
 
   Acute_edges_3() = default;
 
-  /// O(n log n) for n triangles.
-  /// \param largest_angle dihedral angles below it are acute, in degrees.
-  Acute_edges_3(const Piecewise_smooth_complex_3<K>& complex, double largest_angle)
+  /// O(n log n) for n pairs.
+  /// \param pairs those that meet at acute angles.
+  Acute_edges_3(const Piecewise_smooth_complex_3<K>& complex, const std::vector<Sheet_pair_3>& pairs)
   {
     std::vector<Box_3> boxes;
-    for (const Sheet_pair_3& pair : sheet_pairs_3(complex, largest_angle * radians_per_degree)) {
+    for (const Sheet_pair_3& pair : pairs) {
       const Point &a = complex.points[pair.source], &b = complex.points[pair.target];
       const auto &one = pair.away[0], &two = pair.away[1];
       edges_.push_back({a,
@@ -64,8 +64,6 @@ public:
     }
     boxes_ = Box_hierarchy_3(boxes);
   }
-
-  bool empty() const { return edges_.empty(); }
 
   /// Whether a ball lies so near to an acute edge that it meets both sides of it, or nearly so: a simplex whose
   /// circumscribed ball that is mixes them up.

@@ -39,14 +39,14 @@ public:
   Mirror_images_3() = default;
 
   /// O(n log n) for n triangles. Of gaps it knows nothing yet.
-  /// \param acute_angle largest dihedral angle of edges with images, in degrees.
-  Mirror_images_3(const Piecewise_smooth_complex_3<K>& complex, const Acute_edges_3<K>& acute_edges, double acute_angle)
-      : has_acute_edges_(!acute_edges.empty())
+  /// \param pairs those of the acute edges.
+  /// \param acute_angle that they meet at less than, in degrees.
+  Mirror_images_3(const Piecewise_smooth_complex_3<K>& complex, const std::vector<Sheet_pair_3>& pairs,
+                  double acute_angle)
+      : has_acute_edges_(!pairs.empty())
   {
     std::vector<char> is_at_acute_edge(complex.points.size(), false);
-    if (has_acute_edges_)
-      for (const auto& pair : sheet_pairs_3(complex, acute_angle * radians_per_degree))
-        is_at_acute_edge[pair.source] = is_at_acute_edge[pair.target] = true;
+    for (const Sheet_pair_3& pair : pairs) is_at_acute_edge[pair.source] = is_at_acute_edge[pair.target] = true;
     for (const Point& p : complex.points)
       largest_coordinate_ = (std::max)({largest_coordinate_, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
     shells_ = Crease_shells_3<K>(complex, [&](std::size_t vertex) {

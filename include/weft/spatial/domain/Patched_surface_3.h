@@ -8,11 +8,13 @@
 
 #include <weft/internal/boxes/Triangle_hierarchy_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
+#include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
 
 #include <CGAL/Bbox_3.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -130,6 +132,28 @@ private:
   Triangle_hierarchy_3<K> all_;
   std::vector<Triangle_hierarchy_3<K>> patches_; // empty if there is but one
 };
+
+/// That of a complex, with its triangles' numbers. O(n log n).
+template <class K>
+Patched_surface_3<K> patched_surface_of(const Piecewise_smooth_complex_3<K>& complex)
+{
+  std::vector<Surface_triangle_3<K>> all;
+  for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
+    Surface_triangle_3<K> triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.vertices[i] = static_cast<std::uint32_t>(complex.triangles[t][i]);
+      triangle.points[i] = complex.points[triangle.vertices[i]];
+    }
+    triangle.index = static_cast<std::uint32_t>(t);
+    triangle.patch = complex.patches[t];
+    if (!complex.sides.empty()) {
+      const auto& [behind, before] = complex.sides[static_cast<std::size_t>(triangle.patch)];
+      triangle.change = behind ^ before;
+    }
+    all.push_back(triangle);
+  }
+  return Patched_surface_3<K>(all, static_cast<std::size_t>(complex.number_of_patches));
+}
 
 } // namespace weft::internal
 

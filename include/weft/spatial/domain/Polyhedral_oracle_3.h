@@ -14,15 +14,17 @@
 #define WEFT_SPATIAL_DOMAIN_POLYHEDRAL_ORACLE_3_H
 
 #include <weft/errors.h>
-#include <weft/internal/boxes/coordinates_3.h>
 #include <weft/spatial/domain/Acute_edges_3.h>
 #include <weft/spatial/domain/Crease_network_3.h>
 #include <weft/spatial/domain/Domain_shape_3.h>
+#include <weft/spatial/domain/facing_points_3.h>
 #include <weft/spatial/domain/Mirror_images_3.h>
 #include <weft/spatial/domain/oracle_hits_3.h>
 #include <weft/spatial/domain/Patched_surface_3.h>
 #include <weft/spatial/domain/Salient_features_3.h>
+#include <weft/spatial/domain/sheet_pairs_3.h>
 #include <weft/spatial/domain/surface_samples_3.h>
+#include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
 #include <weft/spatial/surface/Piecewise_smooth_complex_3.h>
@@ -32,12 +34,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -74,10 +71,11 @@ public:
     constexpr std::size_t limit = std::size_t(1) << 30;
     if (complex_.triangles.size() >= limit || complex_.points.size() >= limit)
       throw Domain_error("a surface of 2^30 or more points or triangles", {}, {});
-    build_surface();
+    surface_ = internal::patched_surface_of(complex_);
     build_creases();
-    acute_edges_ = internal::Acute_edges_3<K>(complex_, acute_angle);
-    mirror_images_ = internal::Mirror_images_3<K>(complex_, acute_edges_, acute_angle);
+    const auto pairs = internal::sheet_pairs_3(complex_, acute_angle * internal::radians_per_degree);
+    acute_edges_ = internal::Acute_edges_3<K>(complex_, pairs);
+    mirror_images_ = internal::Mirror_images_3<K>(complex_, pairs, acute_angle);
     find_gaps();
     salient_ = internal::Salient_features_3<K>(complex_, {fold_angle, ridge_angle, sharp_angle, 180 - acute_angle});
   }
@@ -98,14 +96,7 @@ public:
   /// or the triangle has no area.
   std::array<double, 3> normal(int triangle, int subdomain) const
   {
-    const auto t = static_cast<std::size_t>(triangle);
-    const auto [behind, before] = sides(t);
-    if (behind == before || (behind != subdomain && before != subdomain)) return {};
-    auto n = internal::cross_product_of_triangle(complex_, t);
-    const double length = internal::norm(n);
-    if (!(length > 0)) return {};
-    for (double& x : n) x /= behind == subdomain ? length : -length;
-    return n;
+    return internal::triangle_normal(complex_, triangle, subdomain);
   }
 
   /// Bounding box of the boundary.
@@ -213,7 +204,8 @@ public:
     mirror_images_.visit(
         surface_, creases_, acute_edges_, p, at, spacing,
         [this](const Point& of, int patch, double reach) {
-          return facing_point(of, project_on_patch(of, patch).triangle, (std::min)(reach, widest_gap()));
+          return internal::facing_point(complex_, surface_, of, project_on_patch(of, patch).triangle,
+                                        (std::min)(reach, internal::widest_gap(bbox())));
         },
         visit);
   }
@@ -289,18 +281,7 @@ public:
   /// `reach`, which it is for a zero normal.
   double thickness(const Point& p, const std::array<double, 3>& normal, double reach) const
   {
-    if (normal == std::array<double, 3>()) return reach;
-    // The point itself is on the boundary, up to rounding.
-    const double least = rounding();
-    double nearest = reach;
-    std::vector<Surface_hit_3<K>> hits;
-    for (const double side : {-1., 1.}) {
-      hits.clear();
-      surface_.intersect(along(p, normal, side * least), along(p, normal, side * nearest), hits);
-      for (const auto& hit : hits)
-        nearest = (std::min)(nearest, internal::norm(internal::minus(internal::xyz(hit.point), internal::xyz(p))));
-    }
-    return nearest;
+    return internal::thickness_along(surface_, p, normal, reach);
   }
 
 private:
@@ -310,72 +291,7 @@ private:
 
   static constexpr double acute_angle = 60; // degrees; from there on refinement ends by itself
 
-  using Triangle = internal::Surface_triangle_3<K>;
-
-  static Point along(const Point& p, const std::array<double, 3>& direction, double d)
-  {
-    return Point(p.x() + d * direction[0], p.y() + d * direction[1], p.z() + d * direction[2]);
-  }
-
-  /// Unit normal of a triangle between the domain and the outside that points outside; zero for others.
-  std::array<double, 3> outward_normal(int triangle) const
-  {
-    const auto [behind, before] = sides(static_cast<std::size_t>(triangle));
-    return behind != 0 && before != 0 ? std::array<double, 3>() : normal(triangle, behind + before);
-  }
-
-  /// The point nearest to a point of a triangle along its outward normal where the boundary is met again, if it faces
-  /// back there and is as near as `reach`.
-  std::optional<Point> facing_point(const Point& p, int triangle, double reach) const
-  {
-    const std::array<double, 3> out = outward_normal(triangle);
-    const double least = rounding();
-    if (out == std::array<double, 3>() || !(reach > least)) return {};
-    std::vector<Surface_hit_3<K>> hits;
-    surface_.intersect(along(p, out, least), along(p, out, reach), hits);
-    if (hits.empty()) return {};
-    const std::array<double, 3> back = outward_normal(hits.front().triangle);
-    constexpr double nearly_opposite = -0.99;
-    if (out[0] * back[0] + out[1] * back[1] + out[2] * back[2] > nearly_opposite) return {};
-    return hits.front().point;
-  }
-
-  /// Wider gaps aren't narrow: they take few vertices without twins, too.
-  double widest_gap() const
-  {
-    const CGAL::Bbox_3 b = bbox();
-    return 0.005 * std::max({b.xmax() - b.xmin(), b.ymax() - b.ymin(), b.zmax() - b.zmin()});
-  }
-
-  /// Distance within which coordinates can't be told apart.
-  double rounding() const
-  {
-    double largest = 0;
-    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(bbox().min(k)), std::abs(bbox().max(k))});
-    return 16 * std::numeric_limits<double>::epsilon() * largest;
-  }
-
   std::pair<int, int> sides(std::size_t t) const { return internal::sides_of_triangle(complex_, t); }
-
-  void build_surface()
-  {
-    std::vector<Triangle> all;
-    for (std::size_t t = 0; t < complex_.triangles.size(); ++t) {
-      Triangle triangle;
-      for (std::size_t i = 0; i < 3; ++i) {
-        triangle.vertices[i] = static_cast<std::uint32_t>(complex_.triangles[t][i]);
-        triangle.points[i] = complex_.points[triangle.vertices[i]];
-      }
-      triangle.index = static_cast<std::uint32_t>(t);
-      triangle.patch = complex_.patches[t];
-      if (!complex_.sides.empty()) {
-        const auto& [behind, before] = complex_.sides[static_cast<std::size_t>(triangle.patch)];
-        triangle.change = behind ^ before;
-      }
-      all.push_back(triangle);
-    }
-    surface_ = internal::Patched_surface_3<K>(all, static_cast<std::size_t>(complex_.number_of_patches));
-  }
 
   void build_creases()
   {
@@ -393,9 +309,10 @@ private:
   void find_gaps()
   {
     constexpr std::size_t samples = 1000;
+    const double widest = internal::widest_gap(bbox());
     bool has_gaps = false;
     visit_spread_points(samples, [&](const Point& p, const auto&, double) {
-      has_gaps = has_gaps || facing_point(p, closest(p).triangle, widest_gap()).has_value();
+      has_gaps = has_gaps || internal::facing_point(complex_, surface_, p, closest(p).triangle, widest).has_value();
     });
     if (has_gaps) mirror_images_.add_gaps();
   }

@@ -7,6 +7,7 @@
 
 #include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
+#include <weft/spatial/criteria/Tolerated_elements_3.h>
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
 #include <weft/spatial/restricted/project_on_location_3.h>
@@ -63,8 +64,6 @@ public:
   }
 
 private:
-  using Element = typename Criteria_guard_3<Restricted>::Element;
-
   Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
 
   auto new_offenders()
@@ -76,7 +75,7 @@ private:
   }
 
   /// The moves that were made shorter, by their places in `ids`.
-  std::vector<std::size_t> shorten_moves(const std::vector<Element>& bad, int round, const std::vector<int>& ids,
+  std::vector<std::size_t> shorten_moves(const std::vector<Element_3>& bad, int round, const std::vector<int>& ids,
                                          std::vector<double>& parts)
   {
     std::vector<std::size_t> shortened;
@@ -103,7 +102,7 @@ private:
   /// Ring by ring around an element, until there is something to shorten: what it is like depends on its neighbours,
   /// too.
   template <class Shorten>
-  void shorten_around(const Element& element, const Shorten& shorten)
+  void shorten_around(const Element_3& element, const Shorten& shorten)
   {
     std::vector<int> ring, next;
     for (const int id : element)
