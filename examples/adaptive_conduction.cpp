@@ -95,7 +95,8 @@ struct Cell
   }
 };
 
-/// Linear elements; the exact temperature on the boundary. \param u where iteration begins, as from the mesh before.
+/// Linear elements; the exact temperature on the boundary.
+/// \param u where iteration begins, as from the mesh before.
 std::vector<double> solve(const Mesh& mesh, std::vector<double> u)
 {
   std::vector<int> unknown(mesh.points.size(), -1);

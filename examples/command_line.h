@@ -47,7 +47,8 @@ public:
   /// The arguments that aren't options.
   void operands(std::vector<std::string>& operands);
   void flag(const std::string& name, bool& is_given, const std::string& help);
-  /// Any text that isn't empty. \param value_name what the list of options calls the value.
+  /// Any text that isn't empty.
+  /// \param value_name what the list of options calls the value.
   void text(const std::string& name, const std::string& value_name, std::string& text, const std::string& help);
   /// The same; may be given several times.
   void texts(const std::string& name, const std::string& value_name, std::vector<std::string>& texts,
@@ -67,12 +68,14 @@ public:
   void integer(const std::string& name, const std::string& value_name, Integer least, Integer most, Integer& integer,
                const std::string& help);
 
-  /// Reads the command line. \throws Error if there is something wrong with it.
+  /// Reads the command line.
+  /// \throws Error if there is something wrong with it.
   /// \returns the answer to --help or --version, empty if neither is given.
   std::string parse(int argc, const char* const* argv);
 
   const std::string& program() const { return program_; }
-  /// Whether an option was given, and its value as it was. \pre `parse()` has been called.
+  /// Whether an option was given, and its value as it was.
+  /// \pre `parse()` has been called.
   bool has(const std::string& name) const;
   std::string value(const std::string& name) const;
 
@@ -82,7 +85,8 @@ private:
   std::unique_ptr<Parser> parser_;
 };
 
-/// A text that is a part of the value of an option, as a length or a whole number. \throws Error as above.
+/// A text that is a part of the value of an option, as a length or a whole number.
+/// \throws Error as above.
 Length read_length(const std::string& option, const std::string& text, bool may_be_zero = false);
 int read_integer(const std::string& option, const std::string& text);
 
@@ -105,8 +109,10 @@ enum Status
 int run_program(Options& options, const std::function<Status()>& run, int argc, const char* const* argv);
 
 /// The same for a program that has what is asked for as a Request.
-/// \param before,after as for `Options`. \param add_options declares options that set members of a Request.
-/// \param check refuses what doesn't go together, and sets what several options decide. \param run returns a status.
+/// \param before,after as for `Options`.
+/// \param add_options declares options that set members of a Request.
+/// \param check refuses what doesn't go together, and sets what several options decide.
+/// \param run returns a status.
 template <class Request>
 int run_program(const std::string& name, const std::string& before, const std::string& after,
                 void (*add_options)(Options&, Request&), void (*check)(const Options&, Request&),

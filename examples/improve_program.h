@@ -26,7 +26,8 @@ namespace improve_program {
 using command_line::Error;
 using command_line::Status;
 
-/// Whether the boundary stays as it is. \param boundary slide, fixed or empty.
+/// Whether the boundary stays as it is.
+/// \param boundary slide, fixed or empty.
 /// \param for_sliding options that make no sense then.
 inline bool is_boundary_fixed(const command_line::Options& options, const std::string& boundary,
                               const std::vector<std::string>& for_sliding)
@@ -48,8 +49,10 @@ inline std::string with_stop_reason(weft::Stop_reason reason, const std::string&
 
 /// Improves, writes all files and tells how it went.
 /// \param read from a filename to a mesh and notes.
-/// \param improve from a mesh and a visitor to a mesh and a report. \param advice for input that it refuses.
-/// \param write_mesh,write_report to a filename. \param missing what a report falls short of, as one line, or nothing.
+/// \param improve from a mesh and a visitor to a mesh and a report.
+/// \param advice for input that it refuses.
+/// \param write_mesh,write_report to a filename.
+/// \param missing what a report falls short of, as one line, or nothing.
 /// \param title of the histogram.
 template <class Read, class Improve, class Write_mesh, class Write_report, class Missing>
 Status run(const std::string& program, const command_line::Files& files, const Read& read, const Improve& improve,

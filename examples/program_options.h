@@ -47,7 +47,8 @@ inline void add_histogram(Options& options, Files& files, const std::string& hel
   options.filename("--histogram", ".svg", files.histogram, help);
 }
 
-/// How a run begins and what it may use. \param run the options of any of weft's entry points.
+/// How a run begins and what it may use.
+/// \param run the options of any of weft's entry points.
 template <class Run_options>
 void add_seed_threads_and_time(Options& options, Run_options& run)
 {
@@ -70,7 +71,9 @@ inline void add_quiet(Options& options, Files& files)
 }
 
 /// Values of which one may hold for all labels, and others for a single label each, given as LABEL:VALUE.
-/// \param what the label is called. \param read makes a value of a text. \param take takes the general one.
+/// \param what the label is called.
+/// \param read makes a value of a text.
+/// \param take takes the general one.
 template <class Value, class Read, class Take>
 void read_by_label(const std::string& option, const std::string& what, const std::vector<std::string>& texts,
                    const Read& read, const Take& take, std::map<int, Value>& of_label)
@@ -99,7 +102,8 @@ inline void read_lengths(const std::string& option, const std::string& what, con
 }
 
 /// Refuses calls without input, and outputs that can't be written.
-/// \param is_mesh_filename whether a mesh can be written to a file of that name. \param endings for people.
+/// \param is_mesh_filename whether a mesh can be written to a file of that name.
+/// \param endings for people.
 template <class Is_mesh_filename>
 void check_files(const std::string& program, const Files& files, const Is_mesh_filename& is_mesh_filename,
                  const std::string& endings)
@@ -130,7 +134,8 @@ inline void append_to_list(std::string& list, const std::string& part)
   if (!part.empty()) list += (list.empty() ? "" : ", ") + part;
 }
 
-/// "the smallest angle is 34.9 degrees, not 35.0". \param smallest rounded down.
+/// "the smallest angle is 34.9 degrees, not 35.0".
+/// \param smallest rounded down.
 inline std::string too_small(const std::string& angle, double smallest, double asked)
 {
   return "the smallest " + angle + " is " + weft::internal::one_decimal(std::floor(10 * smallest) / 10) +

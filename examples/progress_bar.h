@@ -28,7 +28,8 @@ public:
   Progress_bar(const Progress_bar&) = delete;
   Progress_bar& operator=(const Progress_bar&) = delete;
 
-  /// \param part in [0, 1]; the bar never goes back. \param text what is being done, some 45 characters.
+  /// \param part in [0, 1]; the bar never goes back.
+  /// \param text what is being done, some 45 characters.
   void show(double part, const std::string& text)
   {
     using namespace std::chrono;

@@ -55,7 +55,8 @@ double uniform(std::mt19937& random)
 }
 
 /// Squares cut in two, nx by ny of side 1; vertices inside are moved at random as far as `reach`, from 0.5 on so that
-/// triangles turn over. \param region tag of the square at (x, y), 0 for a hole.
+/// triangles turn over.
+/// \param region tag of the square at (x, y), 0 for a hole.
 Mesh grid(int nx, int ny, double reach, const std::function<int(int, int)>& region = {}, unsigned seed = 1)
 {
   std::mt19937 random(seed);

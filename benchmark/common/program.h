@@ -26,14 +26,16 @@ public:
   std::string argument() const { return argv_[at_]; }
   bool is(const std::string& option) const { return argument() == option; }
 
-  /// What follows an option. \throws weft::Option_error if nothing does.
+  /// What follows an option.
+  /// \throws weft::Option_error if nothing does.
   std::string value()
   {
     if (at_ + 1 >= argc_) throw weft::Option_error(argument() + " needs a value");
     return argv_[++at_];
   }
 
-  /// A number that isn't negative. \throws weft::Option_error if what follows isn't one.
+  /// A number that isn't negative.
+  /// \throws weft::Option_error if what follows isn't one.
   double number()
   {
     const std::string name = argument();
@@ -47,7 +49,8 @@ public:
     return checked(name, value(), true);
   }
 
-  /// An argument that isn't an option. \throws weft::Option_error if it is one.
+  /// An argument that isn't an option.
+  /// \throws weft::Option_error if it is one.
   std::string operand() const
   {
     if (argument().rfind("--", 0) == 0) throw weft::Option_error("unknown option " + argument());

@@ -68,7 +68,8 @@ struct Options::Parser
     app.allow_windows_style_options(false); // a slash begins a path
   }
 
-  /// An option that may be given once. \param take gets the value.
+  /// An option that may be given once.
+  /// \param take gets the value.
   void add(const std::string& name, const std::string& value_name, const std::string& help,
            const std::function<void(const std::string&)>& take)
   {

@@ -37,7 +37,8 @@ struct Bounds
   bool vary() const { return by_features || gradation > 0 || size_field; }
 };
 
-/// Reads a field of sizes. \throws weft::File_error, weft::Option_error.
+/// Reads a field of sizes.
+/// \throws weft::File_error, weft::Option_error.
 std::function<double(const std::array<double, 3>&)> read_size_field(const std::string& filename);
 
 /// A mesh with what is known about it; see result.h.

@@ -50,7 +50,8 @@ struct Parts
   std::vector<std::pair<int, int>> sides; ///< of each patch, subdomains, 0 for the outside
 };
 
-/// Values by label as values by subdomain. \throws weft::Option_error for a label that there isn't.
+/// Values by label as values by subdomain.
+/// \throws weft::Option_error for a label that there isn't.
 template <class Value>
 std::map<int, Value> by_subdomain(const std::map<int, Value>& by_label, const Parts& parts)
 {

@@ -15,7 +15,8 @@
 
 namespace mesh_3_program {
 
-/// Criteria with the sizes that are asked for. \tparam Oracle of the domain.
+/// Criteria with the sizes that are asked for.
+/// \tparam Oracle of the domain.
 template <class Oracle>
 weft::Criteria_3<K> with_sizes(const Oracle& oracle, weft::Criteria_3<K> criteria, const Bounds& bounds)
 {

@@ -50,8 +50,10 @@ void read_tetgen_points(const std::string& filename, Element_soup_3<K>& soup)
 }
 
 /// Reads an .ele file.
-/// \tparam N number of vertices of an element. \param name of an element. \param n number of points, the first of which
-/// has the number `first`. \param tags gets the first attribute of each element, if there are any.
+/// \tparam N number of vertices of an element.
+/// \param name of an element.
+/// \param n number of points, the first of which has the number `first`.
+/// \param tags gets the first attribute of each element, if there are any.
 template <std::size_t N>
 void read_ele_file(const std::string& filename, const std::string& name, std::size_t first, std::size_t n,
                    std::vector<std::array<std::size_t, N>>& elements, std::vector<int>& tags,

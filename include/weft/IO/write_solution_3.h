@@ -74,8 +74,9 @@ WEFT_COLD inline void append_node_data(const std::string& filename, const Mesh_s
 namespace IO {
 
 /// Writes a mesh with a solution as .vtu; with what is known at vertices as .msh, or as .mesh and a .sol of the same
-/// name. `read_solution()` reads both of that again. \throws File_error if the extension is another one or a file can't
-/// be written; Option_error for arrays of wrong sizes.
+/// name. `read_solution()` reads both of that again.
+/// \throws File_error if the extension is another one or a file can't be written; Option_error for arrays of wrong
+///   sizes.
 template <class K>
 WEFT_COLD void write_solution_3(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh,
                                 const Mesh_solution_3& solution, const Mesh_names_3& names = Mesh_names_3())

@@ -55,7 +55,8 @@ struct Tetrahedron_centers_3
 
 /// What a facet on the boundary adds to the gradient of its vertices, with which it moves: the integral over it of
 /// density times squared distance to the nearest of them, times the normal speed.
-/// \param facet counterclockwise seen from outside; \param center its circumcenter.
+/// \param facet counterclockwise seen from outside.
+/// \param center its circumcenter.
 template <class Density>
 void add_boundary_speed(const std::array<Coordinates<3>, 3>& facet, const Coordinates<3>& center,
                         const Density& density, const Coordinates<3>& origin,
@@ -82,7 +83,9 @@ void add_boundary_speed(const std::array<Coordinates<3>, 3>& facet, const Coordi
 }
 
 /// The CVT energy and its gradient, that of boundary vertices included: the domain of the mesh changes with them.
-/// Linear. \param density callable, `Coordinates<3>` -> positive number. \pre `neighbors` are set.
+/// Linear.
+/// \param density callable, `Coordinates<3>` -> positive number.
+/// \pre `neighbors` are set.
 template <class Density>
 Energy_terms<3> cvt_terms(const Simplices<3>& mesh, const Density& density, bool with_weights = false)
 {

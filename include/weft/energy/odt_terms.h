@@ -103,8 +103,8 @@ Energy_terms<d> volume_terms(const Simplices<d>& mesh, bool in_metric)
 
 /// Divides an energy by the volume V of the mesh, and where sizes vary further by the power 1 + 2 / d of its mean
 /// volume in their metric: E V^(2 / d) / M^(1 + 2 / d). That is the same for a mesh with a few flat cells more or less
-/// on a curved boundary, for one that shrinks, and for one whose vertices of large sizes crowd out the others. \returns
-/// the factor of the energy.
+/// on a curved boundary, for one that shrinks, and for one whose vertices of large sizes crowd out the others.
+/// \returns the factor of the energy.
 template <std::size_t d>
 double normalise(const Simplices<d>& mesh, Energy_terms<d>& terms)
 {

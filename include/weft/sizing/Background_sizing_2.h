@@ -25,8 +25,8 @@
 namespace weft {
 
 /// Sizing field that is linear on each triangle of a triangulation; outside of it, the value at the closest point of
-/// the convex hull. \tparam K a CGAL kernel with exact predicates, the triangulation's geometric traits or one that
-/// fits its points.
+/// the convex hull.
+/// \tparam K a CGAL kernel with exact predicates, the triangulation's geometric traits or one that fits its points.
 template <class K>
 class Background_sizing_2
 {

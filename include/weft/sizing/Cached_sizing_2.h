@@ -44,7 +44,8 @@ struct Cache_options
 ///
 /// At all test points of every leaf the value is never above the field's (up to rounding) and, unless the leaf is one
 /// of `coarse_leaves()`, at least (1 - relative_error) times it. Between test points that holds for fields without
-/// features smaller than the leaf. The value can jump by the error from one leaf to the next. \tparam K a CGAL kernel.
+/// features smaller than the leaf. The value can jump by the error from one leaf to the next.
+/// \tparam K a CGAL kernel.
 /// \tparam Sizing the field; a copy is kept.
 template <class K, class Sizing>
 class Cached_sizing_2

@@ -14,7 +14,8 @@
 namespace weft {
 
 /// Sizing field that is the smallest or the largest of others at every point; of k-Lipschitz ones it is k-Lipschitz. As
-/// safe to read from many threads as they are. \tparam least whether it is the smallest.
+/// safe to read from many threads as they are.
+/// \tparam least whether it is the smallest.
 template <bool least, class... Fields>
 class Combined_sizing
 {

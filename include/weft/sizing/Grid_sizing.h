@@ -21,7 +21,8 @@
 namespace weft {
 
 /// Sizing field between the nodes of a grid; outside of it, the value at the nearest point of the grid. Copies share
-/// the values. Safe to read from many threads. \tparam d the dimension, 2 or 3.
+/// the values. Safe to read from many threads.
+/// \tparam d the dimension, 2 or 3.
 template <int d>
 class Grid_sizing
 {

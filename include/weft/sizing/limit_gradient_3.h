@@ -89,7 +89,8 @@ private:
     }
   }
 
-  /// Looks at all leaves, those with the smallest sizes first. \returns whether something was changed.
+  /// Looks at all leaves, those with the smallest sizes first.
+  /// \returns whether something was changed.
   bool run_sweep()
   {
     std::vector<std::pair<double, Index>> order;

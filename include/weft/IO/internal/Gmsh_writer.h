@@ -106,7 +106,8 @@ public:
     }
   }
 
-  /// Ends the elements and the file. \throws File_error if anything could not be written.
+  /// Ends the elements and the file.
+  /// \throws File_error if anything could not be written.
   WEFT_COLD void close()
   {
     out_ << "$EndElements\n";

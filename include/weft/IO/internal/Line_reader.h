@@ -24,7 +24,8 @@ namespace weft::internal {
 class Line_reader
 {
 public:
-  /// Takes the whole file into memory. \throws File_error if it can't be read.
+  /// Takes the whole file into memory.
+  /// \throws File_error if it can't be read.
   explicit Line_reader(const std::string& filename) : filename_(filename)
   {
     std::ifstream in(filename, std::ios::binary);
@@ -38,7 +39,8 @@ public:
     if (in.bad()) throw File_error(filename, 0, "can't be read");
   }
 
-  /// Makes one line of those that end with a backslash and the next. \pre No line has been read.
+  /// Makes one line of those that end with a backslash and the next.
+  /// \pre No line has been read.
   void join_lines()
   {
     for (std::size_t at = 0; (at = text_.find('\\', at)) != std::string::npos; ++at) {

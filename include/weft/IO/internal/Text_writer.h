@@ -53,7 +53,8 @@ public:
     return *this << std::string_view(digits, static_cast<std::size_t>(result.ptr - digits));
   }
 
-  /// Call at the end. \throws File_error if anything could not be written, for instance because the disk is full.
+  /// Call at the end.
+  /// \throws File_error if anything could not be written, for instance because the disk is full.
   WEFT_COLD void close()
   {
     flush();

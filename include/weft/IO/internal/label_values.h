@@ -12,7 +12,8 @@
 
 namespace weft::internal {
 
-/// A voxel's value as a label. \throws File_error unless it is an integer that fits.
+/// A voxel's value as a label.
+/// \throws File_error unless it is an integer that fits.
 inline int label_value(const std::string& filename, double value)
 {
   if (!(std::abs(value) < 2e9) || value != std::floor(value))

@@ -32,7 +32,8 @@ Point read_point_3(Line_reader& in)
 }
 
 /// The vertices of an element, wherever lines end.
-/// \param first the number of the first point; \param n of points.
+/// \param first the number of the first point.
+/// \param n of points.
 template <std::size_t N>
 std::array<std::size_t, N> read_vertices(Line_reader& in, std::size_t first, std::size_t n)
 {

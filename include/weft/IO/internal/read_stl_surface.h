@@ -95,7 +95,8 @@ inline float stl_float(const std::string& bytes, std::size_t at)
   return value;
 }
 
-/// Reads the facets of a binary STL. \pre The bytes are complete.
+/// Reads the facets of a binary STL.
+/// \pre The bytes are complete.
 template <class K>
 Polygon_soup_3<K> read_binary_stl(const std::string& filename, const std::string& bytes)
 {

@@ -18,7 +18,8 @@ namespace weft::internal {
 class Point_tree_3
 {
 public:
-  /// \param points outlive the tree. \param items indices of those in it.
+  /// \param points outlive the tree.
+  /// \param items indices of those in it.
   Point_tree_3(const std::vector<Xyz_3>& points, std::vector<std::size_t> items)
       : points_(points), items_(std::move(items)), splits_(items_.size())
   {

@@ -104,8 +104,8 @@ protected:
 
   // ---- points
 
-  /// Gives the points of elements numbers, in their order, and notes the others. \returns the number by point, `none`
-  /// for the others.
+  /// Gives the points of elements numbers, in their order, and notes the others.
+  /// \returns the number by point, `none` for the others.
   template <std::size_t N>
   std::vector<std::size_t> number_points(const std::vector<std::array<std::size_t, N>>& elements,
                                          const std::string& name)

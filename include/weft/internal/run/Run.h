@@ -55,7 +55,8 @@ public:
 
   // ---- whether to go on
 
-  /// Stops the run; the first reason counts. \returns false.
+  /// Stops the run; the first reason counts.
+  /// \returns false.
   bool stop(Stop_reason reason)
   {
     if (!is_stopped()) reason_ = reason;

@@ -50,8 +50,8 @@ public:
 
   /// Calls `function(input_face, face)` for each finite face of a mesh of the input. The input's face holds the
   /// centroid of the mesh's, or is, where rounding puts that across a constraint, the nearest on the same side. Time is
-  /// that of locating each centroid from the one before. \param mesh the triangulation after meshing: it has the
-  /// input's points, and its constraints as chains of edges.
+  /// that of locating each centroid from the one before.
+  /// \param mesh the triangulation after meshing: it has the input's points, and its constraints as chains of edges.
   template <class Function>
   void for_each(const Cdt& mesh, const Function& function) const
   {

@@ -21,7 +21,8 @@ namespace weft {
 
 /// The faces of a triangulation for which `region_of(face)` isn't 0, with that as their tag; constrained edges beside
 /// them are edges of the mesh. Linear time, but for a sort.
-/// \param cdt any CGAL constrained triangulation. \param region_of callable, face handle -> int.
+/// \param cdt any CGAL constrained triangulation.
+/// \param region_of callable, face handle -> int.
 /// \throws Domain_error if there is no such face.
 template <class Cdt, class Region_of_face>
 Triangle_mesh_2<typename Cdt::Geom_traits> triangle_mesh_2(const Cdt& cdt, const Region_of_face& region_of)

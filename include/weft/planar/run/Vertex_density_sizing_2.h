@@ -74,8 +74,9 @@ public:
   using Point = typename K::Point_2;
 
   /// \param largest edges of good meshes are up to so many times as long as those of equilateral triangles of the same
-  ///   area. \param growth of sizes by distance, at most. \param allow_constraints whether sizes are to allow all
-  ///   constrained edges, whatever their length.
+  ///   area.
+  /// \param growth of sizes by distance, at most.
+  /// \param allow_constraints whether sizes are to allow all constrained edges, whatever their length.
   template <class Cdt>
   Vertex_density_sizing_2(const Cdt& cdt, double largest, double growth, bool allow_constraints) : largest_(largest)
   {

@@ -229,8 +229,8 @@ private:
 } // namespace internal
 
 /// Meshes a domain by Alg. 2 of Tournois 2009. Parameters and validity are those of `make_mesh_2()`; sizes aren't
-/// promised, as the last relaxation comes after refinement, and neither are angles. Without layers. \throws
-/// Option_error for options out of range; Domain_error when there is no domain.
+/// promised, as the last relaxation comes after refinement, and neither are angles. Without layers.
+/// \throws Option_error for options out of range; Domain_error when there is no domain.
 template <class Cdt, class Sizing>
 As_published_report_2 mesh_as_published_2(Cdt& cdt, const Sizing& sizing,
                                           const As_published_options_2& options = As_published_options_2())

@@ -54,7 +54,8 @@ public:
       for (const std::size_t v : mesh.edges[e]) edges_at_[v].push_back(e);
   }
 
-  /// \param stays by vertex, those that are corners in any case; \param all whether all of the outline are.
+  /// \param stays by vertex, those that are corners in any case.
+  /// \param all whether all of the outline are.
   Outline_2 run(std::vector<char> stays, bool all)
   {
     find_sides();
@@ -195,7 +196,8 @@ std::size_t visit_sides_2(const Cdt& cdt, const Mesh_tags_2<K>& tags, const Outl
 }
 
 /// Divides a chain into its straight parts: no vertex is farther from the part than `tolerance` times the edges there.
-/// \param points along the chain. \returns positions of the ends of the parts, the first and the last included.
+/// \param points along the chain.
+/// \returns positions of the ends of the parts, the first and the last included.
 template <class Point>
 std::vector<std::size_t> straight_parts(const std::vector<Point>& points, double tolerance)
 {

@@ -25,8 +25,8 @@ class Smooth_curve_2
 public:
   using Point = typename K::Point_2;
 
-  /// \param points at least three; the first is the last where the curve is closed. \param is_smooth_at_ends whether a
-  /// closed one has no corner there.
+  /// \param points at least three; the first is the last where the curve is closed.
+  /// \param is_smooth_at_ends whether a closed one has no corner there.
   Smooth_curve_2(const std::vector<Point>& points, bool is_smooth_at_ends)
   {
     for (const Point& p : points) points_.push_back(xy(p));

@@ -76,7 +76,8 @@ private:
 /// polygon has repeated corners.
 ///
 /// \tparam Cdt a CGAL constrained Delaunay triangulation (also in a Constrained_triangulation_plus_2) over a CGAL
-/// kernel. \tparam Domain callable, face handle -> bool; asked about finite faces only.
+///   kernel.
+/// \tparam Domain callable, face handle -> bool; asked about finite faces only.
 template <class Cdt, class Domain = Marked_faces_2>
 class Bounded_voronoi_diagram_2
 {
@@ -96,7 +97,8 @@ public:
     std::vector<Polygon> polygons;
   };
 
-  /// Tags the faces. \pre `cdt` is constrained Delaunay with respect to its constrained edges.
+  /// Tags the faces.
+  /// \pre `cdt` is constrained Delaunay with respect to its constrained edges.
   explicit Bounded_voronoi_diagram_2(const Cdt& cdt, Domain domain = Domain()) : cdt_(&cdt), domain_(std::move(domain))
   {
     update();
@@ -169,7 +171,8 @@ public:
     return polygons;
   }
 
-  /// The cell of a free vertex (Alg. 4), written to `polygon`, whose memory is reused. \pre `is_free(vertex)`
+  /// The cell of a free vertex (Alg. 4), written to `polygon`, whose memory is reused.
+  /// \pre `is_free(vertex)`
   void free_cell(Vertex_handle vertex, Polygon& polygon) const
   {
     polygon.clear();

@@ -62,10 +62,10 @@ void add_features(const C3t3& c3t3, const Number& number, Soup& soup)
 
 } // namespace internal
 
-/// The mesh of a C3t3: its cells, the facets, edges and corners in the complex with their indices.
-/// Integer indices are tags as in `assemble_mesh_3()`; so what `to_c3t3()` makes comes back as it was, up to the order
-/// of its elements. Vertices are in the order in which the triangulation lists them. \throws Domain_error as
-/// `assemble_mesh_3()` does.
+/// The mesh of a C3t3: its cells, the facets, edges and corners in the complex with their indices. Integer indices are
+/// tags as in `assemble_mesh_3()`; so what `to_c3t3()` makes comes back as it was, up to the order of its elements.
+/// Vertices are in the order in which the triangulation lists them.
+/// \throws Domain_error as `assemble_mesh_3()` does.
 template <class C3t3>
 auto from_c3t3(const C3t3& c3t3)
 {

@@ -99,7 +99,8 @@ struct Numbered_indices_3
   throw Domain_error("cell " + std::to_string(cell) + " of the mesh " + what, {}, {cell});
 }
 
-/// Adds all elements of the mesh to the complex. \param vertex the vertices of the triangulation, in the mesh's order.
+/// Adds all elements of the mesh to the complex.
+/// \param vertex the vertices of the triangulation, in the mesh's order.
 /// \param indices what they are called.
 template <class C3t3, class K, class Indices>
 void add_elements(C3t3& c3t3, const Tetrahedral_mesh_3<K>& mesh,

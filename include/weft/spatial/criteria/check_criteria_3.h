@@ -198,8 +198,8 @@ Validity_3 check_criteria_but(const Tetrahedral_mesh_3<K>& mesh, const Criteria_
 } // namespace internal
 
 /// Checks size, shapes and, if asked for, topology. The approximation needs the surface: see `hausdorff_3()`. Whether
-/// the boundary is a manifold tells `check_manifold_3()` of validate_3.h. \throws Option_error if the size field
-/// returns anything but a positive finite number.
+/// the boundary is a manifold tells `check_manifold_3()` of validate_3.h.
+/// \throws Option_error if the size field returns anything but a positive finite number.
 template <class K>
 Validity_3 check_criteria_3(const Tetrahedral_mesh_3<K>& mesh, const Criteria_3<K>& criteria)
 {

@@ -70,7 +70,8 @@ public:
     return intersect(p, q, subdomain(p), subdomain(q), hits);
   }
 
-  /// The first change of label from p to q by bisection. \pre The labels of the ends differ.
+  /// The first change of label from p to q by bisection.
+  /// \pre The labels of the ends differ.
   Surface_hit_3<K> crossing(Point p, Point q, int at_p, int at_q) const
   {
     for (int k = 0; k < most_bisections && distance(p, q) > precision * diagonal_; ++k) {

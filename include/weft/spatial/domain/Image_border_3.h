@@ -248,7 +248,8 @@ private:
     for (const std::size_t i : crossed) add_curve(keys[i], middle, u, v, sides(i));
   }
 
-  /// A curve in a square, with three points on the way. \param sides the labels beside it.
+  /// A curve in a square, with three points on the way.
+  /// \param sides the labels beside it.
   void add_curve(const Key& from, const Key& to, std::size_t u, std::size_t v, const std::array<int, 2>& sides)
   {
     const Point a = places_.at(from), b = places_.at(to), middle = refined(a, b, u, v, sides);

@@ -41,7 +41,8 @@ public:
   using Point = typename K::Point_3;
   static constexpr bool is_thread_safe = true;
 
-  /// O(voxels). \throws Domain_error if there is no boundary.
+  /// O(voxels).
+  /// \throws Domain_error if there is no boundary.
   explicit Image_oracle_3(std::shared_ptr<const Voxel_image_3> image)
       : Base(image->bbox(), internal::Image_border_3<K>(*image).creases()),
         image_(std::move(image)),
@@ -70,7 +71,8 @@ public:
     const int low = (std::min)(a, b), high = (std::max)(a, b);
     return high * (high - 1) / 2 + low;
   }
-  /// The patch where a subdomain ends at the border. \param face 0 and 1 at the ends of x, then y, then z.
+  /// The patch where a subdomain ends at the border.
+  /// \param face 0 and 1 at the ends of x, then y, then z.
   int patch_at_border(int label, int face) const { return number_of_interfaces() + face * (labels_ - 1) + label - 1; }
 
   /// The face of the box that a patch lies on, -1 for those inside.

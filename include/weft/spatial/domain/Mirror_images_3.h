@@ -111,11 +111,12 @@ public:
 private:
   static constexpr double shell_angle = 29; ///< degrees; from there on refinement ends by itself between two creases
 
-  /// Two triangles that are mirror images of each other have their six vertices on a sphere, and with rounding alone
-  /// to decide, the Delaunay triangulation has flat cells among them, of two vertices and their images. A distance from
+  /// Two triangles that are mirror images of each other have their six vertices on a sphere, and with rounding alone to
+  /// decide, the Delaunay triangulation has flat cells among them, of two vertices and their images. A distance from
   /// the sphere that is much larger than rounding, and toward the original, so that it leaves those four in a plane,
   /// leaves none: the ball of four points that are off a common circle, but hardly off a plane, is huge. That is what
-  /// weights would do. \returns the image moved by a random part of 1e-11 of the largest coordinate either way.
+  /// weights would do.
+  /// \returns the image moved by a random part of 1e-11 of the largest coordinate either way.
   Point off_symmetry(const Point& image, const Point& original) const
   {
     std::uint64_t hash = 0; // of the image, in units of a power of two: scaling by another changes nothing

@@ -163,7 +163,8 @@ private:
   }
 
   /// The connected parts that a connected graph falls into without each of its nodes (Hopcroft and Tarjan 1973).
-  /// \param pairs the edges in both directions, sorted. \param root a node.
+  /// \param pairs the edges in both directions, sorted.
+  /// \param root a node.
   std::vector<long> parts_without(const std::vector<std::pair<std::size_t, std::size_t>>& pairs, std::size_t root) const
   {
     const std::size_t n = components_.size() + 1;

@@ -93,7 +93,8 @@ public:
 
   /// Including 0, the outside.
   virtual int number_of_labels() const = 0;
-  /// The label at the center of a voxel. \pre The image contains it.
+  /// The label at the center of a voxel.
+  /// \pre The image contains it.
   virtual int label(const Voxel& v) const = 0;
   virtual int label_at(const std::array<double, 3>& p) const = 0;
   /// Where the label changes between the centers of neighbours with different labels: part of the way from a to b.

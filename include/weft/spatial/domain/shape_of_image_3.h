@@ -28,7 +28,9 @@ class Cell_shapes_3
 public:
   explicit Cell_shapes_3(const Voxel_image_3& image) : image_(image) {}
 
-  /// Adds a cell's share. \param cell its last voxel. \param labels of its voxels, x running fastest.
+  /// Adds a cell's share.
+  /// \param cell its last voxel.
+  /// \param labels of its voxels, x running fastest.
   void add(const Voxel_image_3::Voxel& cell, const std::array<int, 8>& labels, Domain_shape_3& shape)
   {
     std::array<double, 3> low, high;

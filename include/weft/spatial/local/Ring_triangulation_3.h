@@ -59,7 +59,8 @@ public:
   void append_cells(std::vector<Cell_vertices>& made) const { append_part(0, ring_->size() - 1, made); }
 
   /// Cuts the ring, which is an open one around an edge that stays, into parts: each has one cell at the edge, and the
-  /// rest of it is triangulated. \returns the worst cell.
+  /// rest of it is triangulated.
+  /// \returns the worst cell.
   double thin_out()
   {
     const std::size_t n = ring_->size();

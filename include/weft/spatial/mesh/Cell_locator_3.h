@@ -46,7 +46,8 @@ public:
 
   Cell_locator_3() = default;
 
-  /// O(n log n). \param cells without such that are inverted.
+  /// O(n log n).
+  /// \param cells without such that are inverted.
   Cell_locator_3(const std::vector<Point>& points, const std::vector<std::array<std::size_t, 4>>& cells) : cells_(cells)
   {
     points_.reserve(points.size());

@@ -112,7 +112,8 @@ private:
     return c;
   }
 
-  /// Tries groups of the vertices of a cell by turns, ever shorter moves. \returns the number of moves that were kept.
+  /// Tries groups of the vertices of a cell by turns, ever shorter moves.
+  /// \returns the number of moves that were kept.
   std::size_t mend(const Cell& ids)
   {
     std::vector<Group> groups;

@@ -36,8 +36,10 @@ struct Optimise_report_3
 };
 
 /// Optimises a mesh under one guard, which keeps each stage from undoing what refinement or an earlier one has
-/// achieved. \tparam Restricted a Restricted_delaunay_3. \tparam Smoother a smoother, see smoothers_3.h; or
-/// Energy_smoother_3, which minimises an energy. \throws Option_error for options or criteria out of range.
+/// achieved.
+/// \tparam Restricted a Restricted_delaunay_3.
+/// \tparam Smoother a smoother, see smoothers_3.h; or Energy_smoother_3, which minimises an energy.
+/// \throws Option_error for options or criteria out of range.
 template <class Restricted, class Smoother = Natural_odt_3>
 Optimise_report_3 optimise_3(Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria,
                              const Optimise_options_3& options = Optimise_options_3(),

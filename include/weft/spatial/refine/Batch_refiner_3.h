@@ -96,7 +96,8 @@ public:
   }
 
   /// To be called when nothing was inserted last: another refiner needn't look at facets and vertices again that are
-  /// good and stay. \returns the version of the mesh; what is bad counts as changed in it.
+  /// good and stay.
+  /// \returns the version of the mesh; what is bad counts as changed in it.
   int settle()
   {
     bad_.set_changed();

@@ -58,7 +58,9 @@ public:
   bool is_loop() const { return points_.front() == points_.back(); }
 
   /// Where to begin if there are vertices on the crease: fractions of its length, none of them an end but 0 for a
-  /// cycle. \param least number of parts of the whole. \param is_closed whether it is a cycle without a feature vertex.
+  /// cycle.
+  /// \param least number of parts of the whole.
+  /// \param is_closed whether it is a cycle without a feature vertex.
   std::vector<double> fractions(std::size_t least, bool is_closed, const std::vector<Point>& vertices) const
   {
     std::vector<double> result;

@@ -61,7 +61,8 @@ public:
   }
 
   /// Chooses a Steiner point for each vertex without a disk, of those whose stars changed since they were last seen. To
-  /// be called when no facet is bad. \returns how many there were.
+  /// be called when no facet is bad.
+  /// \returns how many there were.
   /// \param choose_facet `choose_facet(facet)` chooses one for a facet.
   template <class Choose_facet>
   std::size_t choose_at_vertices(const Choose_facet& choose_facet)

@@ -42,7 +42,8 @@ public:
       vertices_.push_back({p, location, spacing});
   }
 
-  /// Inserts the twins that are missing, at most `room`. \returns how many.
+  /// Inserts the twins that are missing, at most `room`.
+  /// \returns how many.
   /// \param insert `insert(zone, location)` inserts the point of a zone; cells may be classified later.
   template <class Insert>
   std::size_t insert(std::size_t room, const Insert& insert)

@@ -68,8 +68,8 @@ public:
     return mesh_.oracle().subdomain(best.point) == c->subdomain() ? result : Zone_result::no_conflict;
   }
 
-  /// The best Steiner point for a facet whose size, shape or distance from the surface is bad. \returns as above, but
-  /// that the facet's own Steiner point is always possible.
+  /// The best Steiner point for a facet whose size, shape or distance from the surface is bad.
+  /// \returns as above, but that the facet's own Steiner point is always possible.
   Zone_result choose(const Restricted_facet& f, int batch, Zone& zone)
   {
     collect(f);

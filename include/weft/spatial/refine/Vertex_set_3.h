@@ -54,8 +54,8 @@ bad_balls(const Restricted& mesh, const Criteria_3<typename Restricted::Kernel>&
 }
 
 /// Takes the vertices in balls that are blown up by a factor out of a mesh, but for feature vertices and those that
-/// were fixed. The others get new ids. O(vertices * balls). \returns how many were; none at all where it would be more
-/// than half of them.
+/// were fixed. The others get new ids. O(vertices * balls).
+/// \returns how many were; none at all where it would be more than half of them.
 template <class Restricted>
 std::size_t drop_vertices(const std::vector<Ball_3<typename Restricted::Kernel>>& balls, double factor,
                           Restricted& mesh)

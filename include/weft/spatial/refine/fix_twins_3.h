@@ -21,7 +21,8 @@
 namespace weft::internal {
 
 /// Makes vertices stay that have a twin, nearer than any other vertex, across an edge of a very acute angle. O(n log
-/// n). \tparam Restricted a Restricted_delaunay_3.
+/// n).
+/// \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
 void fix_twins(Restricted& mesh)
 {

@@ -189,7 +189,8 @@ public:
   }
 
   /// Inserts distinct points, each with its location, and classifies what is there at the end. Points are numbered in
-  /// the order given, after the vertices that there are. \pre they lie inside the box.
+  /// the order given, after the vertices that there are.
+  /// \pre they lie inside the box.
   void insert(const std::vector<Point>& points, const std::vector<Vertex_location_3>& locations)
   {
     const std::size_t before = vertices_.size();
@@ -288,7 +289,8 @@ private:
     return v;
   }
 
-  /// Takes a vertex out and leaves its number vacant. \returns the cells that fill its place, not classified.
+  /// Takes a vertex out and leaves its number vacant.
+  /// \returns the cells that fill its place, not classified.
   std::vector<Cell_handle> take_away(Vertex_handle v)
   {
     std::vector<Cell_handle> star;

@@ -182,7 +182,8 @@ public:
     classify_filling();
   }
 
-  /// Makes the change final. \pre the vertex isn't out.
+  /// Makes the change final.
+  /// \pre the vertex isn't out.
   void commit()
   {
     CGAL_precondition(state_ != State::none && state_ != State::out && state_ != State::closed);

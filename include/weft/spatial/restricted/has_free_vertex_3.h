@@ -7,7 +7,8 @@
 
 namespace weft::internal {
 
-/// Whether a cell has a vertex that may move. \tparam Restricted a Restricted_delaunay_3.
+/// Whether a cell has a vertex that may move.
+/// \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
 bool has_free_vertex(const Restricted& mesh, typename Restricted::Cell_handle c)
 {

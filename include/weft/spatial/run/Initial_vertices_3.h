@@ -34,7 +34,8 @@ struct Initial_vertices_3
   std::vector<char> changed{}; ///< then, by vertex, whether it is to be smoothed all the same
 };
 
-/// Inserts the vertices of the boundary and those that have to stay. \returns the others, for `insert_interior()`.
+/// Inserts the vertices of the boundary and those that have to stay.
+/// \returns the others, for `insert_interior()`.
 template <class Restricted>
 std::vector<typename Restricted::Point> insert_boundary(const Initial_vertices_3<typename Restricted::Kernel>& initial,
                                                         Restricted& mesh)
@@ -59,8 +60,8 @@ std::vector<typename Restricted::Point> insert_boundary(const Initial_vertices_3
 }
 
 /// Inserts those interior vertices that lie in the domain, as few don't where cells are inverted, and don't end up on
-/// the boundary. Otherwise refinement has to surround them with vertices on the surface. \returns how many were left
-/// out.
+/// the boundary. Otherwise refinement has to surround them with vertices on the surface.
+/// \returns how many were left out.
 template <class Restricted>
 std::size_t insert_interior(std::vector<typename Restricted::Point> points,
                             const Criteria_3<typename Restricted::Kernel>& criteria, Restricted& mesh)

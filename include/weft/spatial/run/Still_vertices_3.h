@@ -11,8 +11,8 @@
 
 namespace weft::internal {
 
-/// Fixes vertices as long as it lives, of a mesh in which no others are fixed for good. \tparam Restricted a
-/// Restricted_delaunay_3.
+/// Fixes vertices as long as it lives, of a mesh in which no others are fixed for good.
+/// \tparam Restricted a Restricted_delaunay_3.
 template <class Restricted>
 class Still_vertices_3
 {

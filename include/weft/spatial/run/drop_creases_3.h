@@ -67,7 +67,8 @@ double longest_found_crease(const Piecewise_smooth_complex_3<K>& complex, const 
 
 /// A domain without some of its creases; given ones stay. Corners where two creases are left become cusps, those where
 /// none is left are dropped; tips and cusps stay.
-/// \param is_dropped by crease. \returns how many were dropped.
+/// \param is_dropped by crease.
+/// \returns how many were dropped.
 template <class K>
 std::size_t drop_creases(const std::vector<char>& is_dropped, Piecewise_smooth_complex_3<K>& complex)
 {

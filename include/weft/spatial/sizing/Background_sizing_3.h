@@ -53,7 +53,8 @@ public:
       : Background_sizing_3(mesh.points, mesh.cells, std::move(sizes))
   {}
 
-  /// The same of a CGAL triangulation of dimension 3. \param size callable: vertex handle -> size.
+  /// The same of a CGAL triangulation of dimension 3.
+  /// \param size callable: vertex handle -> size.
   template <class Triangulation, class Size_of_vertex, class Vertex_handle = typename Triangulation::Vertex_handle>
   Background_sizing_3(const Triangulation& triangulation, const Size_of_vertex& size)
       : Background_sizing_3(Arrays(triangulation, size))

@@ -43,9 +43,10 @@ Solver_report minimise_energy(Restricted& mesh, const Criteria_guard_3<Restricte
 /// not at all. The triangulation stays Delaunay; the energy after each sweep that is kept is less than before.
 ///
 /// The energy is that of the cells in the domain. On the boundary its gradient is projected to the patch or crease;
-/// where these are flat or straight, that is Natural ODT. \tparam Restricted a Restricted_delaunay_3. \param smoothing
-/// its `uniform`, `lipschitz` and `keep_criteria` count: the metric, and whether moves that violate a
-///        criterion are shortened. Budgets are those of `options`.
+/// where these are flat or straight, that is Natural ODT.
+/// \tparam Restricted a Restricted_delaunay_3.
+/// \param smoothing its `uniform`, `lipschitz` and `keep_criteria` count: the metric, and whether moves that violate a
+///   criterion are shortened. Budgets are those of `options`.
 /// \throws Option_error for options or criteria out of range.
 template <class Restricted>
 Solver_report minimise_energy_3(Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria,

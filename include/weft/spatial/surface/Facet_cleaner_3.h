@@ -27,7 +27,8 @@
 
 namespace weft::internal {
 
-/// Facets of a surface as triangles, while they are mended. \tparam K a CGAL kernel with exact predicates.
+/// Facets of a surface as triangles, while they are mended.
+/// \tparam K a CGAL kernel with exact predicates.
 template <class K>
 class Facet_cleaner_3
 {

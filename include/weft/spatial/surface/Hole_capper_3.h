@@ -49,7 +49,8 @@ struct Open_part_3
   double share_of_caps() const { return area_of_caps() / (area + area_of_caps()); }
 };
 
-/// Finds holes and closes them. \tparam K a CGAL kernel.
+/// Finds holes and closes them.
+/// \tparam K a CGAL kernel.
 template <class K>
 class Hole_capper_3
 {
@@ -93,7 +94,8 @@ public:
 
   const std::vector<Open_part_3>& parts() const { return parts_; }
 
-  /// Closes the holes of parts of which at most this share would be caps. \param ask called before each.
+  /// Closes the holes of parts of which at most this share would be caps.
+  /// \param ask called before each.
   template <class Ask>
   void cap(double most, const Ask& ask)
   {

@@ -28,7 +28,8 @@
 
 namespace weft::internal {
 
-/// See the top of the file. \tparam K a kernel of doubles.
+/// See the top of the file.
+/// \tparam K a kernel of doubles.
 template <class K>
 class Plane_snapper_3
 {

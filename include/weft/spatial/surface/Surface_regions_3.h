@@ -27,7 +27,8 @@
 
 namespace weft::internal {
 
-/// See the top of the file. \tparam K a CGAL kernel with exact predicates.
+/// See the top of the file.
+/// \tparam K a CGAL kernel with exact predicates.
 template <class K>
 class Surface_regions_3
 {

@@ -176,7 +176,8 @@ void check_orientation(const Triangle_surface_3<K>& surface, const Surface_topol
     refuse_facets(surface, "is oriented against its neighbours", "are oriented against their neighbours", flipped);
 }
 
-/// Vertices whose facets form more than one fan. \pre The facets are oriented alike.
+/// Vertices whose facets form more than one fan.
+/// \pre The facets are oriented alike.
 template <class K>
 void check_vertices(const Triangle_surface_3<K>& surface, const Surface_neighbours_3& neighbours)
 {
@@ -208,7 +209,8 @@ void check_vertices(const Triangle_surface_3<K>& surface, const Surface_neighbou
   refuse(surface, what + first_few(bad), bad, facets);
 }
 
-/// All the checks above. \throws Domain_error.
+/// All the checks above.
+/// \throws Domain_error.
 template <class K>
 Surface_topology_3 check_surface_topology(const Triangle_surface_3<K>& surface)
 {

@@ -141,8 +141,8 @@ CGAL::MP_Float exact_volume(const Triangle_surface_3<K>& surface, std::size_t tr
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// Whether the facets of a shell look outwards: its volume is positive. \pre The shell is closed, oriented alike and
-/// doesn't meet itself, so its volume isn't zero.
+/// Whether the facets of a shell look outwards: its volume is positive.
+/// \pre The shell is closed, oriented alike and doesn't meet itself, so its volume isn't zero.
 template <class K>
 bool looks_outwards(const Triangle_surface_3<K>& surface, const std::vector<std::size_t>& shell)
 {
@@ -166,7 +166,8 @@ bool looks_outwards(const Triangle_surface_3<K>& surface, const std::vector<std:
   return CGAL::sign(exact) == CGAL::POSITIVE;
 }
 
-/// In how many other shells each shell lies. \pre Shells are closed and meet neither themselves nor each other.
+/// In how many other shells each shell lies.
+/// \pre Shells are closed and meet neither themselves nor each other.
 template <class K>
 std::vector<int> nesting_depths(const Triangle_surface_3<K>& surface,
                                 const std::vector<std::vector<std::size_t>>& shells)
@@ -185,7 +186,8 @@ std::vector<int> nesting_depths(const Triangle_surface_3<K>& surface,
 }
 
 /// Turns whole shells over so that the volume lies behind all facets: outermost shells bound it from outside, shells in
-/// them are cavities, and so on. Returns the shells that were turned. \pre No self-intersections.
+/// them are cavities, and so on. Returns the shells that were turned.
+/// \pre No self-intersections.
 template <class K>
 std::vector<std::size_t> orient_shells(Triangle_surface_3<K>& surface, const Surface_topology_3& topology)
 {

@@ -31,8 +31,8 @@ struct Surface_parts_3
 
 /// Whether, on both sides of some 2000 points of the given triangles, places within an odd number of groups are in the
 /// domain, but for folds, which are small: beside triangles of up to 0.1 % of the area. True if parts have no inside,
-/// since an edge has an odd number of triangles. \param domain triangles that have `sides` as their subdomains behind
-/// and before them.
+/// since an edge has an odd number of triangles.
+/// \param domain triangles that have `sides` as their subdomains behind and before them.
 template <class K>
 bool has_all_parts(const Surface_parts_3<K>& parts, const Triangle_surface_3<K>& domain,
                    const std::vector<std::pair<int, int>>& sides)

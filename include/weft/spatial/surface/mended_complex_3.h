@@ -114,7 +114,8 @@ inline std::vector<Resolving_3> ways_to_resolve(const Mend_options_3& mending)
   return ways;
 }
 
-/// Cuts facets where they meet, within each surface and between them. \param how see `ways_to_resolve()`.
+/// Cuts facets where they meet, within each surface and between them.
+/// \param how see `ways_to_resolve()`.
 /// \throws Domain_error.
 template <class K>
 std::vector<Resolved_surface_3<K>> resolve(const std::vector<Polygon_soup_3<K>>& soups, const Mend_options_3& mending,
@@ -217,7 +218,8 @@ Piecewise_smooth_complex_3<K> mend_complex(const Polygon_soup_3<K>& soup, const 
                      failure.elements());
 }
 
-/// Several surfaces, cut where they meet, after merging them has failed. \throws Domain_error: that failure.
+/// Several surfaces, cut where they meet, after merging them has failed.
+/// \throws Domain_error: that failure.
 template <class K>
 Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3<K>>& surfaces,
                                                 const Feature_options& options, const Mend_options_3& mending,

@@ -37,7 +37,8 @@
 namespace weft {
 namespace internal {
 
-/// Marks given edges as sharp, sides of triangles. \throws Domain_error listing the vertices of what is no edge.
+/// Marks given edges as sharp, sides of triangles.
+/// \throws Domain_error listing the vertices of what is no edge.
 inline void mark_given_edges(const std::vector<Surface_side_3>& sides,
                              const std::vector<std::array<std::size_t, 2>>& given,
                              std::vector<std::array<bool, 3>>& is_sharp)
@@ -62,7 +63,8 @@ inline void mark_given_edges(const std::vector<Surface_side_3>& sides,
   throw Domain_error(counted(missing.size(), what, what) + " of the surface: " + first_few(missing), vertices, {});
 }
 
-/// The edges that are sharp. \pre Every edge has two sides.
+/// The edges that are sharp.
+/// \pre Every edge has two sides.
 template <class K>
 Sharp_edges_3 sharp_edges(const Triangle_surface_3<K>& surface, const Surface_topology_3& topology,
                           const Feature_options& options)
@@ -97,7 +99,8 @@ double least_open_crease(const std::vector<Point>& points, const Feature_options
          std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
 }
 
-/// Which points are given as tips or cusps. \throws Domain_error for points that no facet uses.
+/// Which points are given as tips or cusps.
+/// \throws Domain_error for points that no facet uses.
 template <class K>
 std::vector<bool> given_features(const Triangle_surface_3<K>& surface, const std::vector<std::size_t>& given)
 {

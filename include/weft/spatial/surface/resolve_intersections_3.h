@@ -31,7 +31,8 @@
 
 namespace weft::internal {
 
-/// See the top of the file. \tparam K a kernel of doubles with exact predicates.
+/// See the top of the file.
+/// \tparam K a kernel of doubles with exact predicates.
 template <class K>
 class Intersection_resolver_3
 {
@@ -55,7 +56,8 @@ public:
   /// Those that meet, as triangles were numbered before.
   const std::vector<std::array<std::size_t, 2>>& pairs() const { return meeting_; }
 
-  /// Returns how many pairs of triangles were cut. \throws Domain_error if there are far too many.
+  /// Returns how many pairs of triangles were cut.
+  /// \throws Domain_error if there are far too many.
   std::size_t resolve()
   {
     auto pairs = intersecting_triangles(surface_, sorted_sides(surface_.triangles));

@@ -90,7 +90,8 @@ struct Surface_neighbour_3
 };
 using Surface_neighbours_3 = std::vector<std::array<Surface_neighbour_3, 3>>;
 
-/// The neighbours of all triangles. \pre Every edge has two sides.
+/// The neighbours of all triangles.
+/// \pre Every edge has two sides.
 inline Surface_neighbours_3 surface_neighbours(std::size_t number_of_triangles,
                                                const std::vector<Surface_side_3>& sides)
 {

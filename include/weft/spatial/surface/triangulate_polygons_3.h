@@ -125,7 +125,8 @@ void check_polygons(const Polygon_soup_3<K>& soup)
   refuse_if_any(degenerate, "facet is degenerate", "facets are degenerate");
 }
 
-/// The soup as triangles. \throws Domain_error as `check_polygons()`.
+/// The soup as triangles.
+/// \throws Domain_error as `check_polygons()`.
 template <class K>
 Triangle_surface_3<K> triangulate_polygons(const Polygon_soup_3<K>& soup)
 {
