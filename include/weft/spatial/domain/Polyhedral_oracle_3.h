@@ -281,7 +281,7 @@ public:
   /// `reach`, which it is for a zero normal.
   double thickness(const Point& p, const std::array<double, 3>& normal, double reach) const
   {
-    return internal::thickness_along(surface_, p, normal, reach);
+    return internal::thickness_along(surface_, p, internal::Xyz_3{normal}, reach);
   }
 
 private:
