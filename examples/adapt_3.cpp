@@ -7,12 +7,9 @@
 #include "meshing_progress.h"
 #include "output_files.h"
 #include "program_options.h"
+#include "programs/spatial/files.h"
 
 #include <weft/adapt_3.h>
-#include <weft/IO/read_sizing_3.h>
-#include <weft/IO/read_tetrahedral_mesh.h>
-#include <weft/IO/write_mesh_3.h>
-#include <weft/IO/write_report_json_3.h>
 #include <weft/sizing/Lipschitz_sizing_3.h>
 
 #include <CGAL/bounding_box.h>
@@ -75,7 +72,7 @@ void add_options(command_line::Options& options, Request& request)
 void check(const command_line::Options& options, Request& request)
 {
   check_single_input(request);
-  check_files("adapt_3", request, weft::IO::is_mesh_3_filename, ".mesh, .vtu, .msh, .off or .stl");
+  check_files("adapt_3", request, spatial_files::is_mesh_filename, ".mesh, .vtu, .msh, .off or .stl");
   if (request.size.value == 0 && request.size_field.empty()) throw Error("no sizes: --size or --size-field gives them");
   command_line::check_min_dihedral(options, request.min_dihedral);
   if (options.has("--min-dihedral")) request.options.min_dihedral_angle = request.min_dihedral;
@@ -94,7 +91,7 @@ weft::Criteria_3<K> criteria(const Request& request, const CGAL::Bbox_3& box)
   weft::Gradation_options_3 options;
   if (request.size.value > 0) options.max_size = request.size.in(extent);
   result.size =
-      weft::Lipschitz_sizing_3<K>(weft::IO::read_sizing_3<K>(request.size_field), box, request.gradation, options);
+      weft::Lipschitz_sizing_3<K>(spatial_files::read_sizes(request.size_field), box, request.gradation, options);
   return result;
 }
 
@@ -112,7 +109,7 @@ std::string what_is_missing(const Request& request, const weft::Mesh_report_3& r
 Status run(const Request& request)
 {
   const std::string& filename = request.inputs.front();
-  const auto input = weft::IO::read_tetrahedral_mesh<K>(filename);
+  const auto input = spatial_files::read_mesh(filename);
   command_line::Output_files files;
   announce(request, files);
   const command_line::Interruption interruption;
@@ -126,12 +123,12 @@ Status run(const Request& request)
     for (const auto* notes : {&input.notes, &result.notes})
       for (const std::string& note : *notes) command_line::complain("adapt_3", filename + ": " + note);
   }
-  const weft::Quality_3 quality = weft::measure_quality_3(result.mesh);
+  const weft::Quality_3 quality = spatial_files::measure_quality(result.mesh);
   for (const std::string& wanted : request.outputs)
-    files.add(wanted, [&](const std::string& name) { weft::IO::write_mesh_3(name, result.mesh); });
+    files.add(wanted, [&](const std::string& name) { spatial_files::write_mesh(name, result.mesh); });
   if (!request.report.empty())
     files.add(request.report,
-              [&](const std::string& name) { weft::IO::write_report_json(name, result.report, quality); });
+              [&](const std::string& name) { spatial_files::write_report(name, result.report, quality); });
   files.commit();
   if (!request.quiet) std::cout << result.report << std::flush;
   const std::string missing = what_is_missing(request, result.report, quality.smallest_dihedral.degrees);

@@ -7,11 +7,9 @@
 #include "command_line.h"
 #include "improve_program.h"
 #include "program_options.h"
+#include "programs/spatial/files.h"
 
 #include <weft/improve_3.h>
-#include <weft/IO/read_tetrahedral_mesh.h>
-#include <weft/IO/write_mesh_3.h>
-#include <weft/IO/write_report_json_3.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -82,7 +80,7 @@ void add_options(command_line::Options& options, Request& request)
 void check(const command_line::Options& options, Request& request)
 {
   check_single_input(request);
-  check_files("improve_3", request, weft::IO::is_mesh_3_filename, ".mesh, .vtu, .msh, .off or .stl");
+  check_files("improve_3", request, spatial_files::is_mesh_filename, ".mesh, .vtu, .msh, .off or .stl");
   const bool is_fixed = improve_program::is_boundary_fixed(
       options, request.boundary, {"--sharp-angle", "--no-tags", "--deviation", "--delaunay", "--coarsen"});
   request.options.boundary = is_fixed ? weft::Boundary_3::fixed : weft::Boundary_3::slide;
@@ -110,15 +108,15 @@ std::string what_is_missing(const Request& request, const weft::Improve_report_3
 Status run(const Request& request)
 {
   return improve_program::run(
-      "improve_3", request, [](const std::string& name) { return weft::IO::read_tetrahedral_mesh<K>(name); },
+      "improve_3", request, spatial_files::read_mesh,
       [&request](const Mesh& input, const weft::Visitor& visitor) {
         weft::Improve_options_3 options = request.options;
         options.visitor = visitor;
         return weft::improve_3(input, options);
       },
       request.options.boundary == weft::Boundary_3::slide ? "; --boundary fixed takes any boundary" : "",
-      [](const std::string& name, const Mesh& mesh) { weft::IO::write_mesh_3(name, mesh); },
-      [](const std::string& name, const weft::Improve_report_3& report) { weft::IO::write_report_json(name, report); },
+      [](const std::string& name, const Mesh& mesh) { spatial_files::write_mesh(name, mesh); },
+      [](const std::string& name, const weft::Improve_report_3& report) { spatial_files::write_report(name, report); },
       [&request](const weft::Improve_report_3& report) { return what_is_missing(request, report); }, "Dihedral angles");
 }
 

@@ -83,8 +83,7 @@ struct Image_options
 };
 
 /// \throws weft::File_error if the file can't be read, weft::Domain_error if there is no domain in it, or if labels
-/// look
-///   like grey values.
+///   look like grey values.
 std::unique_ptr<Domain> read_image(const std::string& filename, const Image_options& options);
 
 // ---- Results

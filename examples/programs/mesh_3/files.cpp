@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Reads surfaces, writes meshes and figures.
+// Reads surfaces, mends them and makes domains of them; writes what becomes of domains.
 
+#include "../spatial/files.h"
 #include "surface.h"
 
 #include <weft/internal/counted.h>
-#include <weft/IO/read_sizing_3.h>
 #include <weft/IO/read_surface.h>
 #include <weft/IO/write_angle_histogram_svg.h>
-#include <weft/IO/write_mesh_3.h>
-#include <weft/IO/write_report_json_3.h>
 #include <weft/spatial/surface/compare_with_given_3.h>
 #include <weft/spatial/surface/mended_complex_3.h>
 #include <weft/spatial/surface/merge_surfaces_3.h>
@@ -80,7 +78,7 @@ std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames,
 
 std::function<double(const std::array<double, 3>&)> read_size_field(const std::string& filename)
 {
-  return [field = weft::IO::read_sizing_3<K>(filename)](const std::array<double, 3>& p) {
+  return [field = spatial_files::read_sizes(filename)](const std::array<double, 3>& p) {
     return field(K::Point_3(p[0], p[1], p[2]));
   };
 }
@@ -91,7 +89,7 @@ std::shared_ptr<const Result> make_result(weft::Tetrahedral_mesh_3<K> mesh, cons
                                           weft::Mesh_names_3 names,
                                           std::optional<std::vector<weft::Voxel_component_3>> missing)
 {
-  const weft::Quality_3 quality = weft::measure_quality_3(mesh);
+  const weft::Quality_3 quality = spatial_files::measure_quality(mesh);
   return std::make_shared<const Result>(Result{std::move(mesh), report, quality, std::move(names), std::move(missing)});
 }
 
@@ -126,20 +124,20 @@ double smallest_dihedral(const Result& result)
 
 bool is_mesh_filename(const std::string& filename)
 {
-  return weft::IO::is_mesh_3_filename(filename);
+  return spatial_files::is_mesh_filename(filename);
 }
 
 void write_mesh(const std::string& filename, const Result& result)
 {
-  weft::IO::write_mesh_3(filename, result.mesh, result.names);
+  spatial_files::write_mesh(filename, result.mesh, result.names);
 }
 
 void write_report(const std::string& filename, const Result& result)
 {
   if (result.missing)
-    weft::IO::write_report_json(filename, result.report, result.quality, *result.missing);
+    spatial_files::write_report(filename, result.report, result.quality, *result.missing);
   else
-    weft::IO::write_report_json(filename, result.report, result.quality);
+    spatial_files::write_report(filename, result.report, result.quality);
 }
 
 void write_histogram(const std::string& filename, const Result& result, const std::string& title)
