@@ -50,14 +50,14 @@ public:
   {
     std::size_t kept = 0;
     insertions_left_ = static_cast<std::ptrdiff_t>(insertions);
-    std::vector<Triangle> worst = worst_triangles(bound);
+    std::vector<Triangle> worst = polisher_.worst_triangles(bound);
     set_budget(worst.size());
     for (const int patience : patiences) {
       if (worst.empty() || trials_left_ == 0) break;
       polisher_.reset();
       kept += pass(worst, bound, patience, go_on);
       mesh_.renumber();
-      worst = worst_triangles(bound);
+      worst = polisher_.worst_triangles(bound);
     }
     polisher_.reset();
     return kept;
@@ -81,7 +81,7 @@ private:
   // What a change must leave of the cost.
   static constexpr double worth_keeping = 0.95;
 
-  using Triangle = std::array<int, 3>; // by vertex ids, since trials replace vertices and faces
+  using Triangle = typename Polisher_2<Mesh>::Triangle;
   using Region = Neighborhood_2<Mesh>;
 
   /// The worst of some angles, as cotangents.
@@ -131,18 +131,6 @@ private:
     {}
   };
 
-  std::vector<Triangle> worst_triangles(double bound) const
-  {
-    std::vector<std::pair<double, Triangle>> worst;
-    for (const Face_handle f : mesh_.faces())
-      if (const double c = polisher_.cost(f); c > bound)
-        worst.push_back({c, {f->vertex(0)->id(), f->vertex(1)->id(), f->vertex(2)->id()}});
-    std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<Triangle> result;
-    for (const auto& [c, t] : worst) result.push_back(t);
-    return result;
-  }
-
   template <class Go_on>
   std::size_t pass(const std::vector<Triangle>& worst, double bound, int patience, const Go_on& go_on)
   {
@@ -152,19 +140,9 @@ private:
     for (const Triangle& t : worst) {
       if (trials_left_ == 0 || !go_on()) break;
       Face_handle f;
-      if (find(t, f)) kept += hop(f, bound, patience, go_on);
+      if (polisher_.find(t, f)) kept += hop(f, bound, patience, go_on);
     }
     return kept;
-  }
-
-  bool find(const Triangle& t, Face_handle& f) const
-  {
-    std::array<Vertex_handle, 3> v;
-    for (int i = 0; i < 3; ++i) {
-      v[as_index(i)] = mesh_.vertices()[as_index(t[as_index(i)])];
-      if (v[as_index(i)] == Vertex_handle()) return false;
-    }
-    return mesh_.triangulation().is_face(v[0], v[1], v[2], f);
   }
 
   /// Trials at a triangle, then at whatever is the worst one near it, until all are good or too many trials in a row

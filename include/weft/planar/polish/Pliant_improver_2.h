@@ -51,19 +51,15 @@ public:
   template <class Go_on>
   std::size_t pass(double bound, const Go_on& go_on)
   {
-    std::vector<std::pair<double, Triangle>> worst;
-    for (const Face_handle f : mesh_.faces())
-      if (const double c = polisher_.cost(f); c > bound)
-        worst.push_back({c, {f->vertex(0)->id(), f->vertex(1)->id(), f->vertex(2)->id()}});
-    std::stable_sort(worst.begin(), worst.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    const std::vector<Triangle> worst = polisher_.worst_triangles(bound);
     failures_.reserve(mesh_.vertices().size());
     is_patient_ = worst.size() <= 20 + mesh_.faces().size() / 500;
     price_ = worst.size() > mesh_.faces().size() / 20 ? price_among_many : 1;
     std::size_t kept = 0;
-    for (const auto& [c, t] : worst) {
+    for (const Triangle& t : worst) {
       if (trials_left_ == 0 || !go_on()) break;
       Face_handle f;
-      if (find(t, f) && polisher_.cost(f) > bound && mend(t)) ++kept;
+      if (polisher_.find(t, f) && polisher_.cost(f) > bound && mend(t)) ++kept;
     }
     mesh_.renumber();
     polisher_.reset();
@@ -82,37 +78,27 @@ private:
   // most of those.
   static constexpr std::size_t price_among_many = 3;
 
-  using Triangle = std::array<int, 3>; // by vertex ids, since trials replace vertices and faces
+  using Triangle = typename Polisher_2<Mesh>::Triangle;
 
   using Region = Neighborhood_2<Mesh>; // what a change may affect
 
   /// The face of a triangle, if it still is one.
-  bool find(const Triangle& t, Face_handle& f) const
-  {
-    std::array<Vertex_handle, 3> v;
-    for (int i = 0; i < 3; ++i) {
-      v[as_index(i)] = mesh_.vertices()[as_index(t[as_index(i)])];
-      if (v[as_index(i)] == Vertex_handle()) return false;
-    }
-    return mesh_.triangulation().is_face(v[0], v[1], v[2], f);
-  }
-
   /// Tries the changes at a triangle, those that save a vertex first, unless all of it has been tried before. Returns
   /// whether a change was kept.
   bool mend(const Triangle& t)
   {
     Face_handle f;
-    if (!find(t, f)) return false;
+    if (!polisher_.find(t, f)) return false;
     const std::uint64_t key = key_of_surroundings(f);
     if (failures_.contains(key)) return false;
     for (int i = 0; i < 3; ++i)
-      if (find(t, f) && mesh_.vertices()[as_index(t[as_index(i)])]->constraint() != fixed_vertex &&
+      if (polisher_.find(t, f) && mesh_.vertices()[as_index(t[as_index(i)])]->constraint() != fixed_vertex &&
           try_removal(f, t[as_index(i)])) {
         ++insertions_left_;
         return true;
       }
     for (int k = 0; k < 4 && insertions_left_ > 0; ++k)
-      if (find(t, f) && try_insertion(f, k)) {
+      if (polisher_.find(t, f) && try_insertion(f, k)) {
         --insertions_left_;
         return true;
       }
@@ -135,9 +121,11 @@ private:
     if (k == 3)
       return mesh_.insert_inside(CGAL::centroid(f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()),
                                  f);
-    Triangle edges{0, 1, 2};
-    std::sort(edges.begin(), edges.end(),
-              [&](int i, int j) { return mesh_.squared_length(f, i) > mesh_.squared_length(f, j); });
+    Triangle edges{0, 1, 2}; // longest first
+    const auto order = [&](int& i, int& j) {
+      if (mesh_.squared_length(f, j) > mesh_.squared_length(f, i)) std::swap(i, j);
+    };
+    order(edges[0], edges[1]), order(edges[1], edges[2]), order(edges[0], edges[1]);
     const int i = edges[as_index(k)];
     const Point p = CGAL::midpoint(f->vertex(Triangulation::ccw(i))->point(), f->vertex(Triangulation::cw(i))->point());
     return f->is_constrained(i) ? mesh_.insert_on_constraint(p, f, i) : mesh_.insert_inside(p, f);

@@ -10,6 +10,7 @@
 #define WEFT_PLANAR_POLISH_POLISHER_2_H
 
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/polish/Star_cost_2.h>
 #include <weft/planar/polish/triangle_cost_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -47,6 +48,31 @@ public:
     hopeless_.assign(mesh_.vertices().size(), 0);
     hopeful_.clear();
     failures_.reserve(mesh_.vertices().size());
+  }
+
+  /// By the ids of its vertices: trials replace faces.
+  using Triangle = std::array<int, 3>;
+
+  /// The triangles whose cost exceeds a bound, worst first, equal ones in the order of the faces.
+  WEFT_NOINLINE std::vector<Triangle> worst_triangles(double bound) const
+  {
+    std::vector<Triangle> result;
+    for (const auto& [b, i] : worst_of(mesh_.faces(), bound)) {
+      const Face_handle f = mesh_.faces()[i];
+      result.push_back({f->vertex(0)->id(), f->vertex(1)->id(), f->vertex(2)->id()});
+    }
+    return result;
+  }
+
+  /// Whether a triangle is still there, and its face.
+  WEFT_NOINLINE bool find(const Triangle& t, Face_handle& f) const
+  {
+    std::array<Vertex_handle, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) {
+      v[i] = mesh_.vertices()[as_index(t[i])];
+      if (v[i] == Vertex_handle()) return false;
+    }
+    return mesh_.triangulation().is_face(v[0], v[1], v[2], f);
   }
 
   /// One pass over the triangles whose cost exceeds `bound`, worst first.
@@ -150,12 +176,20 @@ public:
   }
 
 private:
-  std::size_t pass(const std::vector<Face_handle>& faces, double bound)
+  /// Faces whose cost exceeds a bound, by their costs with a minus and their numbers.
+  WEFT_NOINLINE std::vector<std::pair<double, std::size_t>> worst_of(const std::vector<Face_handle>& faces,
+                                                                     double bound) const
   {
     std::vector<std::pair<double, std::size_t>> worst;
     for (std::size_t i = 0; i < faces.size(); ++i)
       if (const double b = cost(faces[i]); b > bound) worst.emplace_back(-b, i);
     std::sort(worst.begin(), worst.end());
+    return worst;
+  }
+
+  std::size_t pass(const std::vector<Face_handle>& faces, double bound)
+  {
+    const auto worst = worst_of(faces, bound);
     hopeless_.resize(mesh_.vertices().size(), 0);
     std::size_t moved = 0;
     for (const auto& [b, i] : worst) {
