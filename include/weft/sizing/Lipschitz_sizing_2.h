@@ -11,6 +11,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/boxes/Box_tree_2.h>
+#include <weft/internal/cold.h>
 
 #include <CGAL/number_utils.h>
 
@@ -131,7 +132,7 @@ private:
     }
   };
 
-  static std::vector<Source> point_sources(const std::vector<Point>& points, const std::vector<double>& sizes)
+  WEFT_COLD static std::vector<Source> point_sources(const std::vector<Point>& points, const std::vector<double>& sizes)
   {
     if (points.size() != sizes.size()) throw Option_error("Lipschitz_sizing_2: one size per point is needed");
     std::vector<Source> sources;
@@ -140,7 +141,7 @@ private:
     return sources;
   }
 
-  void check_source(const Source& s) const
+  WEFT_COLD void check_source(const Source& s) const
   {
     for (const double size : {s.source_size, s.target_size})
       if (!std::isfinite(size) || !(size > 0 || min_size_ > 0))
@@ -165,7 +166,7 @@ private:
     return {at_source ? px : qx, at_source ? py : qy, 1, 0, 0, at_source ? p_size : q_size, 0, 0};
   }
 
-  void plant(std::vector<Piece> pieces)
+  WEFT_NOINLINE void plant(std::vector<Piece> pieces)
   {
     std::vector<internal::Tree_item_2> items;
     items.reserve(pieces.size());
@@ -177,7 +178,7 @@ private:
 
   // A piece is useless if the field near it stays below the piece's smallest size. What makes it useless has a strictly
   // smaller size, so all useless pieces can go at once: no two drop each other.
-  void drop_dominated()
+  WEFT_NOINLINE void drop_dominated()
   {
     std::vector<Piece> kept;
     for (const Piece& p : pieces_) {

@@ -5,6 +5,7 @@
 #ifndef WEFT_INTERNAL_RUN_RUN_H
 #define WEFT_INTERNAL_RUN_RUN_H
 
+#include <weft/internal/cold.h>
 #include <weft/internal/Timer.h>
 #include <weft/visitor.h>
 
@@ -79,7 +80,7 @@ public:
   }
 
   /// All of that.
-  bool go_on(std::size_t vertices, std::size_t bad) { return may_go_on() && visit(vertices, bad); }
+  WEFT_NOINLINE bool go_on(std::size_t vertices, std::size_t bad) { return may_go_on() && visit(vertices, bad); }
 
   bool is_cancelled() const { return reason_ == Stop_reason::cancelled; }
 

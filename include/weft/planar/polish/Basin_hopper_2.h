@@ -9,6 +9,7 @@
 #define WEFT_PLANAR_POLISH_BASIN_HOPPER_2_H
 
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/polish/Neighborhood_2.h>
 #include <weft/planar/polish/Polisher_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -126,7 +127,7 @@ private:
     std::vector<Removed> removed{};
     std::vector<Vertex_handle> inserted{};
 
-    Trial(Mesh& mesh, Face_handle f, int rings)
+    WEFT_NOINLINE Trial(Mesh& mesh, Face_handle f, int rings)
         : core(Region(mesh, f, 1).vertices()), region(mesh, f, rings), witnesses(Region(mesh, f, rings + 1).vertices())
     {}
   };
@@ -274,7 +275,7 @@ private:
     return after.sum < worth_keeping * before.sum && after.highest < before.highest && after.worst.is_within(limits_);
   }
 
-  void take_back(Trial& trial)
+  WEFT_NOINLINE void take_back(Trial& trial)
   {
     for (const Vertex_handle v : trial.inserted) {
       trial.region.forget(v);

@@ -9,6 +9,7 @@
 #define WEFT_PLANAR_POLISH_PLIANT_IMPROVER_2_H
 
 #include <weft/internal/as_index.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/polish/Neighborhood_2.h>
 #include <weft/planar/polish/Polisher_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
@@ -106,7 +107,7 @@ private:
     return false;
   }
 
-  std::uint64_t key_of_surroundings(Face_handle f)
+  WEFT_NOINLINE std::uint64_t key_of_surroundings(Face_handle f)
   {
     const Region region(mesh_, f, 1);
     std::uint64_t key = 0;
@@ -131,7 +132,7 @@ private:
     return f->is_constrained(i) ? mesh_.insert_on_constraint(p, f, i) : mesh_.insert_inside(p, f);
   }
 
-  bool try_insertion(Face_handle f, int k)
+  WEFT_NOINLINE bool try_insertion(Face_handle f, int k)
   {
     Region region(mesh_, f, 1);
     const double old_cost = cost(region.vertices());

@@ -14,6 +14,7 @@
 
 #include <weft/internal/as_index.h>
 #include <weft/internal/boxes/Point_quadtree_2.h>
+#include <weft/internal/cold.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/triangulation/blind_triangle_2.h>
 
@@ -146,7 +147,7 @@ private:
   /// The first point of a room stands above the middle edge of one of its constraints, so that the lattice starts flush
   /// with it. Of the constraints whose direction suits the whole boundary of the room the longest is taken. The longest
   /// one alone would be the back of a comb, with more vertices along its teeth.
-  void start_at_best_constraints()
+  WEFT_COLD void start_at_best_constraints()
   {
     const std::size_t rooms = directions_.size();
     std::vector<std::complex<double>> order(rooms); // sum of the directions, weighted by length

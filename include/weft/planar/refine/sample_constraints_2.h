@@ -7,6 +7,8 @@
 #ifndef WEFT_PLANAR_REFINE_SAMPLE_CONSTRAINTS_2_H
 #define WEFT_PLANAR_REFINE_SAMPLE_CONSTRAINTS_2_H
 
+#include <weft/internal/cold.h>
+
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
@@ -22,8 +24,8 @@ namespace weft::internal {
 /// \param size callable, point -> target edge length.
 /// \param most number of points at most; one more is returned when more would be needed.
 template <class Point, class Size>
-std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Size& size, double wanted,
-                                       std::size_t most)
+WEFT_COLD std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Size& size, double wanted,
+                                                 std::size_t most)
 {
   const double ax = CGAL::to_double(a.x()), ay = CGAL::to_double(a.y()), dx = CGAL::to_double(b.x()) - ax,
                dy = CGAL::to_double(b.y()) - ay, length = std::sqrt(dx * dx + dy * dy);
@@ -58,7 +60,7 @@ std::vector<double> equal_metric_parts(const Point& a, const Point& b, const Siz
 /// \param cuts parameters of the points along the chain, increasing.
 /// \param go_on callable without arguments, called for every point; false stops.
 template <class Mesh, class Chain, class Go_on>
-bool insert_cuts(Mesh& mesh, const Chain& chain, const std::vector<double>& cuts, const Go_on& go_on)
+WEFT_COLD bool insert_cuts(Mesh& mesh, const Chain& chain, const std::vector<double>& cuts, const Go_on& go_on)
 {
   using Triangulation = typename Mesh::Triangulation;
   using Vertex_handle = typename Mesh::Vertex_handle;

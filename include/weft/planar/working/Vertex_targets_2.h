@@ -58,7 +58,7 @@ public:
   double target(const Point& p) const
   {
     const double s = size(p);
-    return grading_ ? CGAL::to_double(grading_->below(p, s)) : s;
+    return grading_ ? graded(p, s) : s;
   }
 
   /// Target remembered for the vertex of that number.
@@ -122,6 +122,8 @@ public:
   }
 
 private:
+  WEFT_NOINLINE double graded(const Point& p, double size) const { return CGAL::to_double(grading_->below(p, size)); }
+
   [[noreturn]] WEFT_COLD static void throw_bad_size(const Point& p, double s)
   {
     std::ostringstream what;
