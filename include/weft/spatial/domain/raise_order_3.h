@@ -15,6 +15,8 @@
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
+#include <CGAL/number_utils.h>
+#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <array>
@@ -62,7 +64,8 @@ public:
       const Vertex_location_3 at = mesh_.middle_locations[m];
       if ((at.dimension != 1 && at.dimension != 2) || std::binary_search(stays_.begin(), stays_.end(), m)) continue;
       const std::optional<Point> p = project_on_location(oracle, straight_[m], at);
-      if (!p || *p == straight_[m]) continue;
+      constexpr double flat = 1e-10; // in parts of the edge: on flat patches projection rounds
+      if (!p || CGAL::squared_distance(*p, straight_[m]) <= flat * flat * squared_lengths_[m]) continue;
       mesh_.middles[m] = *p;
       is_curved_[m] = true;
     }
@@ -125,6 +128,8 @@ private:
     if (is_new) {
       mesh_.middles.push_back(CGAL::midpoint(mesh_.vertices.points[v], mesh_.vertices.points[w]));
       mesh_.middle_locations.push_back(location);
+      squared_lengths_.push_back(
+          CGAL::to_double(CGAL::squared_distance(mesh_.vertices.points[v], mesh_.vertices.points[w])));
     }
     return found->second;
   }
@@ -177,6 +182,7 @@ private:
   Quadratic_mesh_3<K>& mesh_;                            ///< in the result
   std::unordered_map<std::size_t, std::size_t> node_of_; ///< by both ends
   std::vector<Point> straight_;                          ///< the middles of the straight edges
+  std::vector<double> squared_lengths_;                  ///< of the straight edges
   std::vector<char> is_curved_;
   std::vector<std::size_t> stays_; ///< middle nodes between two patches, sorted
 };
