@@ -72,7 +72,7 @@ void add_options(command_line::Options& options, Request& request)
 void check(const command_line::Options& options, Request& request)
 {
   check_single_input(request);
-  check_files("adapt_3", request, spatial_files::is_mesh_filename, ".mesh, .vtu, .msh, .off or .stl");
+  check_files("adapt_3", request, spatial_files::is_mesh_filename, ".mesh, .vtu, .msh, .inp, .off or .stl");
   if (request.size.value == 0 && request.size_field.empty()) throw Error("no sizes: --size or --size-field gives them");
   command_line::check_min_dihedral(options, request.min_dihedral);
   if (options.has("--min-dihedral")) request.options.min_dihedral_angle = request.min_dihedral;

@@ -80,7 +80,7 @@ void add_options(command_line::Options& options, Request& request)
 void check(const command_line::Options& options, Request& request)
 {
   check_single_input(request);
-  check_files("improve_3", request, spatial_files::is_mesh_filename, ".mesh, .vtu, .msh, .off or .stl");
+  check_files("improve_3", request, spatial_files::is_mesh_filename, ".mesh, .vtu, .msh, .inp, .off or .stl");
   const bool is_fixed = improve_program::is_boundary_fixed(
       options, request.boundary, {"--sharp-angle", "--no-tags", "--deviation", "--delaunay", "--coarsen"});
   request.options.boundary = is_fixed ? weft::Boundary_3::fixed : weft::Boundary_3::slide;

@@ -43,7 +43,7 @@ const std::string before_options =
     "              [--approximation [LABEL:]E]... [--facet-shape R] [--cell-shape R] [--sharp-angle DEG]\n"
     "              [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb] [--strict]\n"
     "              [--weld PART] [--cap SHARE] [--iso VALUE] [--inside above|below] [--labels]\n"
-    "              [--name LABEL:NAME]...\n"
+    "              [--name LABEL:NAME]... [--order 1|2]\n"
     "              [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
     "Fills the domain that a closed surface bounds with tetrahedra. INPUT is an .off, .obj, .stl or .ply file. "
@@ -122,8 +122,13 @@ void add_options(command_line::Options& options, Request& request)
                "which values belong to the domain, with --iso. Without it those that are rarer at the\nimage's border");
   options.flag("--labels", request.image.takes_labels, "take an image for labels, even if it looks like grey values");
   options.texts("--name", "LABEL:NAME", request.name_texts,
-                "name of a subdomain in .msh and .vtu files; may be given several times");
-  add_outputs(options, request, ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), or of the boundary alone .off or .stl");
+                "name of a subdomain in .msh, .vtu and .inp files; may be given several times");
+  options.integer("--order", "N", 1, 2, request.bounds.order,
+                "order of the elements (default 1): with 2, edges have nodes in the middle, which lie on\nthe boundary "
+                "where edges do; for .vtu, .msh and .inp");
+  add_outputs(
+      options, request,
+      ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl");
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   add_histogram(options, request, "a picture of the distribution of dihedral angles");
   add_seed_threads_and_time(options, request.options);
@@ -175,7 +180,10 @@ void check_image_options(const Request& request)
 /// What options mean together.
 void check(const command_line::Options& options, Request& request)
 {
-  check_files("mesh_3", request, mesh_3_program::is_mesh_filename, ".mesh, .vtu, .msh, .off or .stl");
+  const int order = request.bounds.order;
+  check_files(
+      "mesh_3", request, [order](const std::string& name) { return mesh_3_program::is_mesh_filename(name, order); },
+      order == 2 ? ".vtu, .msh or .inp" : ".mesh, .vtu, .msh, .inp, .off or .stl");
   if (request.inputs.size() > 1 &&
       std::any_of(request.inputs.begin(), request.inputs.end(), mesh_3_program::is_image_filename))
     throw Error("an image must be the only input file");
@@ -337,6 +345,7 @@ Status run(const Request& request)
   write_files(request, *result, files);
   if (!request.quiet) {
     std::cout << report;
+    if (const std::string line = second_order(*result); !line.empty()) std::cout << line << "\n";
     for (const std::string& line : left_out) std::cout << line << "\n";
     if (request.outputs.empty()) std::cout << "no mesh is written: --output FILE names one\n";
     std::cout << std::flush;

@@ -420,7 +420,7 @@ TEST_CASE("vtu files hold triangles and constraints with their data")
 {
   const Refined mesh;
   const Temporary_file file("mesh.vtu");
-  weft::IO::write_mesh_2(file.name(), mesh.cdt, mesh.tags);
+  weft::IO::write_vtu(file.name(), mesh.cdt, mesh.tags, weft::Vtu_encoding::ascii);
   const std::string text = contents(file.name());
   const auto array = [&text](const std::string& name) {
     const std::size_t begin = text.find('>', text.find("Name=\"" + name + "\"")) + 1;

@@ -300,8 +300,10 @@ TEST_CASE("VTK grids are read in ASCII, base64 and appended, raw and encoded, wi
       CHECK(read.mesh.cells.size() == 2);
       CHECK(read.mesh.points[4] == Point(0, 0, -1));
     }
-    const File compressed("c.vtu", vtu(attributes + " compressor=\"vtkZLibDataCompressor\"", inline_binary));
-    CHECK(contains(error_of(compressed.name()), "compressed"));
+    const File plain("c.vtu", vtu(attributes + " compressor=\"vtkZLibDataCompressor\"", inline_binary));
+    CHECK(!error_of(plain.name()).empty()); // the arrays aren't
+    const File other("c.vtu", vtu(attributes + " compressor=\"vtkLZ4DataCompressor\"", inline_binary));
+    CHECK(contains(error_of(other.name()), "compressed"));
   }
 }
 

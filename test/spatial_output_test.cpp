@@ -250,7 +250,7 @@ TEST_CASE("a .vtu file holds all coordinates, elements and tags")
 {
   const Mesh mesh = uneven_box(true);
   const Scratch_file file("vtu");
-  weft::IO::write_mesh_3(file.name(), mesh);
+  weft::IO::write_vtu(file.name(), mesh, {}, {}, weft::Vtu_encoding::ascii);
   const std::string text = file.content();
   std::vector<double> points, connectivity, offsets, types, subdomains, patches, creases, features;
   const auto add = [&](const auto& element, int type, int subdomain, int patch, int crease, int feature) {

@@ -17,9 +17,10 @@
 #include <weft/errors.h>
 #include <weft/spatial/local/improve_fixed_3.h>
 #include <weft/spatial/local/Improve_options_3.h>
+#include <weft/spatial/mesh/check_manifold_3.h>
 #include <weft/spatial/mesh/quality_3.h>
+#include <weft/spatial/mesh/require_structure_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
-#include <weft/spatial/mesh/validate_3.h>
 #include <weft/spatial/run/improve_sliding_3.h>
 #include <weft/spatial/run/Oracle_requirements_3.h>
 
@@ -64,17 +65,6 @@ std::size_t count_inverted(const Tetrahedral_mesh_3<K>& mesh)
     n +=
         CGAL::orientation(mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]], mesh.points[c[3]]) != CGAL::POSITIVE;
   return n;
-}
-
-/// \throws Domain_error if the arrays aren't those of a mesh.
-template <class K>
-void require_structure(const Tetrahedral_mesh_3<K>& mesh)
-{
-  Validity_3 validity = check_structure_3(mesh);
-  if (validity.ok()) validity += check_boundary_3(mesh);
-  if (validity.ok() || validity.faults.empty()) return;
-  const Fault_3& fault = validity.faults.front();
-  throw Domain_error(fault.text + "; assemble_mesh_3() makes a mesh of points and cells", fault.vertices, {});
 }
 
 /// Whether a mesh has more inverted cells than another one, or as many and a smaller dihedral angle.

@@ -20,8 +20,8 @@ class WeftConan(ConanFile):
     package_type = "header-library"
     settings = "os", "arch", "compiler", "build_type"
     # with_json: for those who include weft/IO/write_report_json_2.h or write_report_json_3.h; no other header needs it
-    options = {"with_tbb": [True, False], "with_json": [True, False]}
-    default_options = {"with_tbb": True, "with_json": False}
+    options = {"with_tbb": [True, False], "with_zlib": [True, False], "with_json": [True, False]}
+    default_options = {"with_tbb": True, "with_zlib": True, "with_json": False}
     no_copy_source = True
 
     @property
@@ -41,6 +41,8 @@ class WeftConan(ConanFile):
         self.requires("cgal/[>=5.5]", transitive_headers=True)
         if self.options.with_tbb:
             self.requires("onetbb/[>=2021.8]", transitive_headers=True)
+        if self.options.with_zlib:
+            self.requires("zlib/[>=1.2.11 <2]", transitive_headers=True)
         if self.options.with_json:
             self.requires("nlohmann_json/[>=3.11]", transitive_headers=True)
 
@@ -59,6 +61,7 @@ class WeftConan(ConanFile):
         for part in ("EXAMPLES", "TESTS", "BENCHMARKS"):
             toolchain.cache_variables[f"WEFT_BUILD_{part}"] = False
         toolchain.cache_variables["WEFT_WITH_TBB"] = bool(self.options.with_tbb)
+        toolchain.cache_variables["WEFT_WITH_ZLIB"] = bool(self.options.with_zlib)
         toolchain.generate()
 
     def build(self):
@@ -76,4 +79,6 @@ class WeftConan(ConanFile):
         self.cpp_info.set_property("cmake_target_name", "weft::weft")
         self.cpp_info.set_property("pkg_config_name", "weft")
         if self.options.with_tbb:
-            self.cpp_info.defines = ["WEFT_LINKED_WITH_TBB"]
+            self.cpp_info.defines.append("WEFT_LINKED_WITH_TBB")
+        if self.options.with_zlib:
+            self.cpp_info.defines.append("WEFT_LINKED_WITH_ZLIB")

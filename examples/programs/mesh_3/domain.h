@@ -31,6 +31,7 @@ struct Bounds
   bool topology = false, manifold = false;
   bool by_features = false; ///< sizes from the features of the domain, at most `size`
   double gradation = 0;     ///< growth of sizes per unit of distance; 0: any
+  int order = 1;            ///< of the elements, 1 or 2
   /// Sizes at places, at most `size`; may be empty.
   std::function<double(const std::array<double, 3>&)> size_field;
 
@@ -91,10 +92,13 @@ std::unique_ptr<Domain> read_image(const std::string& filename, const Image_opti
 const weft::Mesh_report_3& report(const Result& result);
 bool is_empty(const Result& result);
 double smallest_dihedral(const Result& result); ///< in degrees
+/// How curved elements came out, a line for people; empty for elements of first order.
+std::string second_order(const Result& result);
 /// Components of labels that stayed out of the mesh, a line each, for people.
 std::vector<std::string> left_out(const Result& result);
 
-bool is_mesh_filename(const std::string& filename);
+/// \param order of the elements.
+bool is_mesh_filename(const std::string& filename, int order);
 void write_mesh(const std::string& filename, const Result& result);
 void write_report(const std::string& filename, const Result& result);
 void write_histogram(const std::string& filename, const Result& result, const std::string& title);

@@ -86,11 +86,22 @@ std::function<double(const std::array<double, 3>&)> read_size_field(const std::s
 // ---- Results
 
 std::shared_ptr<const Result> make_result(weft::Tetrahedral_mesh_3<K> mesh, const weft::Mesh_report_3& report,
-                                          weft::Mesh_names_3 names,
+                                          weft::Mesh_names_3 names, std::optional<weft::Raised_mesh_3<K>> raised,
                                           std::optional<std::vector<weft::Voxel_component_3>> missing)
 {
   const weft::Quality_3 quality = spatial_files::measure_quality(mesh);
-  return std::make_shared<const Result>(Result{std::move(mesh), report, quality, std::move(names), std::move(missing)});
+  return std::make_shared<const Result>(
+      Result{std::move(mesh), report, quality, std::move(names), std::move(missing), std::move(raised)});
+}
+
+std::string second_order(const Result& result)
+{
+  if (!result.raised) return {};
+  std::ostringstream line;
+  line << "second order: " << weft::internal::counted(result.raised->curved_edges, "curved edge", "curved edges")
+       << ", " << result.raised->straightened_edges << " bent less than the boundary, smallest scaled Jacobian "
+       << result.raised->smallest_scaled_jacobian;
+  return line.str();
 }
 
 std::vector<std::string> left_out(const Result& result)
@@ -122,14 +133,17 @@ double smallest_dihedral(const Result& result)
   return result.quality.smallest_dihedral.degrees;
 }
 
-bool is_mesh_filename(const std::string& filename)
+bool is_mesh_filename(const std::string& filename, int order)
 {
-  return spatial_files::is_mesh_filename(filename);
+  return order == 2 ? spatial_files::is_quadratic_mesh_filename(filename) : spatial_files::is_mesh_filename(filename);
 }
 
 void write_mesh(const std::string& filename, const Result& result)
 {
-  spatial_files::write_mesh(filename, result.mesh, result.names);
+  if (result.raised)
+    spatial_files::write_mesh(filename, result.raised->mesh, result.names);
+  else
+    spatial_files::write_mesh(filename, result.mesh, result.names);
 }
 
 void write_report(const std::string& filename, const Result& result)

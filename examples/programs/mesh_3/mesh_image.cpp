@@ -56,7 +56,8 @@ public:
     weft::Tetrahedral_mesh_3<K> mesh = weft::tetrahedral_mesh(result.restricted);
     auto missing = weft::missing_components_3(oracle_.image(), oracle_.components(), mesh);
     for (weft::Voxel_component_3& c : missing) c.label = label_of(c.label);
-    return make_result(std::move(mesh), result.report, names, std::move(missing));
+    auto second = raised(mesh, oracle_, bounds.order);
+    return make_result(std::move(mesh), result.report, names, std::move(second), std::move(missing));
   }
 
 private:

@@ -24,7 +24,9 @@ std::shared_ptr<const Result> mesh_surface(const weft::Piecewise_smooth_complex_
   weft::Criteria_3<K> criteria = mesh_3_program::criteria(bounds, parts);
   if (bounds.vary()) criteria = with_sizes(weft::Polyhedral_oracle_3<K>(surface), criteria, bounds);
   const auto result = weft::mesh_surface_3(surface, criteria, options);
-  return make_result(weft::tetrahedral_mesh(result.restricted), result.report, names);
+  weft::Tetrahedral_mesh_3<K> mesh = weft::tetrahedral_mesh(result.restricted);
+  auto second = raised(mesh, result.restricted.oracle(), bounds.order);
+  return make_result(std::move(mesh), result.report, names, std::move(second));
 }
 
 } // namespace mesh_3_program

@@ -8,6 +8,7 @@
 #include <weft/errors.h>
 #include <weft/report.h>
 #include <weft/spatial/criteria/Criteria_3.h>
+#include <weft/spatial/domain/raise_order_3.h>
 #include <weft/spatial/domain/Voxel_components_3.h>
 #include <weft/spatial/mesh/Mesh_names_3.h>
 #include <weft/spatial/mesh/quality_3.h>
@@ -36,12 +37,21 @@ struct Result
   weft::Quality_3 quality;
   weft::Mesh_names_3 names;
   std::optional<std::vector<weft::Voxel_component_3>> missing; ///< of images: components that stayed out
+  std::optional<weft::Raised_mesh_3<K>> raised;                ///< the same mesh with elements of second order
 };
 
 /// Measures the quality.
 std::shared_ptr<const Result> make_result(weft::Tetrahedral_mesh_3<K> mesh, const weft::Mesh_report_3& report,
-                                          weft::Mesh_names_3 names,
+                                          weft::Mesh_names_3 names, std::optional<weft::Raised_mesh_3<K>> raised,
                                           std::optional<std::vector<weft::Voxel_component_3>> missing = std::nullopt);
+
+/// The mesh with elements of that order, if it is the second.
+template <class Oracle>
+std::optional<weft::Raised_mesh_3<K>> raised(const weft::Tetrahedral_mesh_3<K>& mesh, const Oracle& oracle, int order)
+{
+  if (order < 2 || mesh.cells.empty()) return std::nullopt;
+  return weft::raise_order_3(mesh, oracle);
+}
 
 /// What a domain consists of.
 struct Parts

@@ -10,6 +10,7 @@
 #include <weft/spatial/local/Improve_options_3.h>
 #include <weft/spatial/mesh/Element_soup_3.h>
 #include <weft/spatial/mesh/Mesh_names_3.h>
+#include <weft/spatial/mesh/Quadratic_mesh_3.h>
 #include <weft/spatial/mesh/quality_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
@@ -30,7 +31,9 @@ weft::Imported_mesh_3<K> read_mesh(const std::string& filename);
 std::function<double(const K::Point_3&)> read_sizes(const std::string& filename);
 
 bool is_mesh_filename(const std::string& filename);
+bool is_quadratic_mesh_filename(const std::string& filename);
 void write_mesh(const std::string& filename, const Mesh& mesh, const weft::Mesh_names_3& names = weft::Mesh_names_3());
+void write_mesh(const std::string& filename, const weft::Quadratic_mesh_3<K>& mesh, const weft::Mesh_names_3& names);
 weft::Quality_3 measure_quality(const Mesh& mesh);
 void write_report(const std::string& filename, const weft::Mesh_report_3& report, const weft::Quality_3& quality);
 void write_report(const std::string& filename, const weft::Mesh_report_3& report, const weft::Quality_3& quality,

@@ -12,7 +12,17 @@ bool is_mesh_filename(const std::string& filename)
   return weft::IO::is_mesh_3_filename(filename);
 }
 
+bool is_quadratic_mesh_filename(const std::string& filename)
+{
+  return weft::IO::is_quadratic_mesh_3_filename(filename);
+}
+
 void write_mesh(const std::string& filename, const Mesh& mesh, const weft::Mesh_names_3& names)
+{
+  weft::IO::write_mesh_3(filename, mesh, names);
+}
+
+void write_mesh(const std::string& filename, const weft::Quadratic_mesh_3<K>& mesh, const weft::Mesh_names_3& names)
 {
   weft::IO::write_mesh_3(filename, mesh, names);
 }

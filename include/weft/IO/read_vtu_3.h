@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Reads tetrahedral meshes from VTK unstructured grids, XML: ASCII, base64 or appended arrays, not compressed. Tags are
+// Reads tetrahedral meshes from VTK unstructured grids, XML: ASCII, base64 or appended arrays, plain or compressed
+// by zlib. Of elements of second order the corners are read. Tags are
 // those that weft writes (`subdomain`, `patch`, `crease`, `feature`), or one of the names that other programs give the
 // tags of all their elements.
 
@@ -34,6 +35,7 @@ public:
   {
     read_points();
     read_elements();
+    if (is_quadratic_) soup_.notes.emplace_back("elements of second order were read as straight ones");
     std::sort(features_.begin(), features_.end());
     for (const auto& feature : features_) soup_.corners.push_back(feature.second);
     return std::move(soup_);
@@ -76,7 +78,7 @@ private:
     }
   }
 
-  /// Number of vertices of the types that can be read.
+  /// Number of nodes of the types that can be read.
   double size_of(int type, std::size_t element) const
   {
     switch (type) {
@@ -88,23 +90,29 @@ private:
       return 3;
     case 10:
       return 4;
+    case 21:
+      return 3;
+    case 22:
+      return 6;
+    case 24:
+      return 10;
     default:
       throw File_error(filename_, 0,
                        "cell " + std::to_string(element) + " is of VTK's type " + std::to_string(type) +
-                           "; only straight tetrahedra (10), triangles (5), lines (3) and vertices (1) "
-                           "can be read");
+                           "; only tetrahedra (10, 24), triangles (5, 22), lines (3, 21) and vertices (1) can be read");
     }
   }
 
   void add(int type, std::size_t e, const double* vertices)
   {
-    if (type == 10) {
+    is_quadratic_ = is_quadratic_ || type > 10;
+    if (type == 10 || type == 24) {
       soup_.cells.push_back(take<4>(vertices, e));
       if (!subdomains_.empty()) soup_.cell_tags.push_back(tag(subdomains_, e));
-    } else if (type == 5) {
+    } else if (type == 5 || type == 22) {
       soup_.facets.push_back(take<3>(vertices, e));
       if (!patches_.empty()) soup_.facet_tags.push_back(tag(patches_, e) + weft_tags_);
-    } else if (type == 3) {
+    } else if (type == 3 || type == 21) {
       soup_.edges.push_back(take<2>(vertices, e));
       if (!creases_.empty()) soup_.edge_tags.push_back(tag(creases_, e) + weft_tags_);
     } else {
@@ -166,6 +174,7 @@ private:
   Vtu_arrays arrays_;
   Element_soup_3<K> soup_;
   std::vector<double> subdomains_, patches_, creases_, feature_tags_;
+  bool is_quadratic_ = false;
   bool weft_tags_ = false; ///< patches and creases count from 0
   std::vector<std::pair<int, std::size_t>> features_;
 };
@@ -175,8 +184,7 @@ private:
 namespace IO {
 
 /// Reads the tetrahedra of a .vtu file, with triangles, lines and vertices of their boundary.
-/// \throws File_error if the file is missing, cut, malformed, compressed, has other cells, or if its elements don't
-/// make
+/// \throws File_error if the file is missing, cut, malformed or has other cells, or if its elements don't make
 ///   a mesh; see `assemble_mesh_3()`.
 template <class K>
 Imported_mesh_3<K> read_vtu_3(const std::string& filename)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Writes a spatial mesh in Gmsh's format 4.1, ASCII (Gmsh reference manual, "MSH file format"). Every feature vertex is
-// an elementary point, every crease an elementary curve, every patch an elementary surface, every subdomain an
-// elementary volume; each is also a physical group with the same tag, so that Gmsh keeps all of them when it saves.
+// Writes a spatial mesh of first or second order in Gmsh's format 4.1, ASCII (Gmsh reference manual, "MSH file
+// format"). Every feature vertex is an elementary point, every crease an elementary curve, every patch an elementary
+// surface, every subdomain an elementary volume; each is also a physical group with the same tag, so that Gmsh keeps
+// all of them when it saves.
 
 #ifndef WEFT_IO_WRITE_GMSH_3_H
 #define WEFT_IO_WRITE_GMSH_3_H
@@ -11,8 +12,10 @@
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/internal/cold.h>
 #include <weft/IO/internal/Gmsh_writer.h>
+#include <weft/IO/internal/Mesh_nodes_3.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
 #include <weft/spatial/mesh/Mesh_names_3.h>
+#include <weft/spatial/mesh/Quadratic_mesh_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <algorithm>
@@ -20,6 +23,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace weft {
@@ -66,18 +70,19 @@ WEFT_COLD void bound_gmsh_entities(Gmsh_entities& entities, const Tetrahedral_me
 
 /// Distributes the mesh over entities. A vertex is a node of the entity it lies on.
 template <class K>
-WEFT_COLD Gmsh_entities gmsh_entities(const Tetrahedral_mesh_3<K>& mesh, const Mesh_names_3& names)
+WEFT_COLD Gmsh_entities gmsh_entities(const Mesh_nodes_3<K>& nodes, const Mesh_names_3& names)
 {
+  const Tetrahedral_mesh_3<K>& mesh = nodes.mesh();
   Gmsh_entities entities;
   add_gmsh_elements(entities, mesh, 1, mesh.edges, mesh.creases, 1);
   add_gmsh_elements(entities, mesh, 2, mesh.facets, mesh.patches, 1);
   add_gmsh_elements(entities, mesh, 3, mesh.cells, mesh.subdomains, 0);
   for (const std::size_t v : mesh.corners) entities[0][mesh.locations[v].index + 1].elements.push_back(v);
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const auto& location = mesh.locations[v];
+  for (std::size_t v = 0; v < nodes.number_of_nodes(); ++v) {
+    const auto& location = nodes.location(v);
     Gmsh_entity& entity = entities[as_index(location.dimension)][location.index + (location.dimension < 3 ? 1 : 0)];
     entity.nodes.push_back(v);
-    entity.include(xyz(mesh.points[v]));
+    entity.include(nodes.node(v));
   }
   bound_gmsh_entities(entities, mesh);
   for (auto& of_dimension : entities)
@@ -87,6 +92,30 @@ WEFT_COLD Gmsh_entities gmsh_entities(const Tetrahedral_mesh_3<K>& mesh, const M
   for (auto& [tag, entity] : entities[3])
     if (const auto name = names.subdomains.find(tag); name != names.subdomains.end()) entity.name = name->second;
   return entities;
+}
+
+template <class K>
+WEFT_COLD void write_gmsh(const std::string& filename, Mesh_nodes_3<K> nodes, const Mesh_names_3& names)
+{
+  const Gmsh_entities entities = gmsh_entities(nodes, names);
+  const int order = nodes.is_quadratic() ? 2 : 1;
+  Gmsh_writer out(filename, entities);
+  out.write_nodes([&](std::size_t v) { return nodes.node(v); });
+  out.begin_elements();
+  out.write_elements(0, [](std::size_t v) { return std::array<std::size_t, 1>{v}; });
+  out.write_elements(
+      1, [&](std::size_t i) { return nodes.edge(i); }, order);
+  out.write_elements(
+      2, [&](std::size_t i) { return nodes.facet(i); }, order);
+  out.write_elements(
+      3,
+      [&](std::size_t i) {
+        std::vector<std::size_t> cell = nodes.cell(i);
+        if (cell.size() == 10) std::swap(cell[8], cell[9]); // Gmsh has the node between 2 and 3 first
+        return cell;
+      },
+      order);
+  out.close();
 }
 
 } // namespace internal
@@ -101,15 +130,15 @@ template <class K>
 WEFT_COLD void write_gmsh(const std::string& filename, const Tetrahedral_mesh_3<K>& mesh,
                           const Mesh_names_3& names = Mesh_names_3())
 {
-  const internal::Gmsh_entities entities = internal::gmsh_entities(mesh, names);
-  internal::Gmsh_writer out(filename, entities);
-  out.write_nodes([&](std::size_t v) { return internal::xyz(mesh.points[v]); });
-  out.begin_elements();
-  out.write_elements(0, [](std::size_t v) { return std::array<std::size_t, 1>{v}; });
-  out.write_elements(1, [&](std::size_t i) { return mesh.edges[i]; });
-  out.write_elements(2, [&](std::size_t i) { return mesh.facets[i]; });
-  out.write_elements(3, [&](std::size_t i) { return mesh.cells[i]; });
-  out.close();
+  internal::write_gmsh(filename, internal::Mesh_nodes_3<K>(mesh), names);
+}
+
+/// The same of second order.
+template <class K>
+WEFT_COLD void write_gmsh(const std::string& filename, const Quadratic_mesh_3<K>& mesh,
+                          const Mesh_names_3& names = Mesh_names_3())
+{
+  internal::write_gmsh(filename, internal::Mesh_nodes_3<K>(mesh), names);
 }
 
 } // namespace IO

@@ -91,13 +91,16 @@ public:
 
   /// The elements of one dimension.
   /// \param vertices nodes of element i.
+  /// \param order of the elements, 1 or 2.
   template <class Vertices>
-  WEFT_COLD void write_elements(int dimension, const Vertices& vertices)
+  WEFT_COLD void write_elements(int dimension, const Vertices& vertices, int order = 1)
   {
-    static constexpr int types[] = {15, 1, 2, 4}; // point, line, triangle, tetrahedron
+    // Point, line, triangle, tetrahedron.
+    static constexpr std::array<std::array<int, 4>, 2> types{{{{15, 1, 2, 4}}, {{15, 8, 9, 11}}}};
     for (const auto& [tag, entity] : entities_[as_index(dimension)]) {
       if (entity.elements.empty()) continue;
-      out_ << dimension << ' ' << tag << ' ' << types[dimension] << ' ' << entity.elements.size() << '\n';
+      out_ << dimension << ' ' << tag << ' ' << types[as_index(order - 1)][as_index(dimension)] << ' '
+           << entity.elements.size() << '\n';
       for (const std::size_t i : entity.elements) {
         out_ << ++number_;
         for (const std::size_t v : vertices(i)) out_ << ' ' << v + 1;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The data arrays of a VTK unstructured grid (VTK file formats, "XML formats"): ASCII, base64 and appended, raw or in
-// base64; not compressed. XML is taken apart as far as these files use it: elements and attributes, no entities.
+// base64, plain or compressed by zlib. XML is taken apart as far as these files use it: elements and attributes, no
+// entities.
 
 #ifndef WEFT_IO_INTERNAL_VTU_ARRAYS_H
 #define WEFT_IO_INTERNAL_VTU_ARRAYS_H
 
 #include <weft/errors.h>
 #include <weft/IO/internal/Line_reader.h>
+#include <weft/IO/internal/zlib_blocks.h>
 
 #include <algorithm>
 #include <array>
@@ -112,7 +114,8 @@ private:
         is_grid = value(attributes, "type") == "UnstructuredGrid";
         byte_order_ = value(attributes, "byte_order");
         long_headers_ = value(attributes, "header_type") == "UInt64";
-        is_compressed_ = attributes.count("compressor") > 0;
+        compressor_ = value(attributes, "compressor");
+        is_compressed_ = !compressor_.empty();
       } else if (name == "Piece") {
         if (++pieces > 1) fail(begin, "the grid is in several pieces; only one can be read");
         points_ = size(attributes, "NumberOfPoints", begin);
@@ -199,9 +202,15 @@ private:
     }
   }
 
-  void require_plain(const Array& array) const
+  void require_readable(const Array& array) const
   {
-    if (is_compressed_) fail(array.position, "arrays are compressed; only those that aren't can be read");
+#ifndef WEFT_LINKED_WITH_ZLIB
+    if (is_compressed_)
+      fail(array.position, "arrays are compressed, and weft was compiled without zlib (WEFT_LINKED_WITH_ZLIB)");
+#endif
+    if (is_compressed_ && compressor_ != "vtkZLibDataCompressor")
+      fail(array.position, "arrays are compressed by " + Line_reader::printable(compressor_) +
+                               "; only vtkZLibDataCompressor can be read");
     if (!byte_order_.empty() && byte_order_ != "LittleEndian")
       fail(array.position, "the byte order is " + byte_order_ + "; only LittleEndian can be read");
     const std::uint16_t one = 1;
@@ -213,26 +222,83 @@ private:
   /// The bytes of an array behind the count that precedes them.
   std::string appended(const Array& array) const
   {
-    require_plain(array);
+    require_readable(array);
     if (appended_ == std::string::npos || appended_ > text_.size() || array.offset > text_.size() - appended_)
       fail(array.position, "the appended data of an array are missing");
     const std::string_view rest = std::string_view(text_).substr(appended_ + array.offset);
     return appended_is_base64_ ? base64(array, rest) : counted_bytes(array, rest);
   }
 
-  std::string counted_bytes(const Array& array, std::string_view bytes) const
+  std::size_t header_size() const
   {
-    const std::size_t header = long_headers_ ? 8 : 4;
-    std::uint64_t count = 0;
-    if (bytes.size() < header) fail(array.position, "the data of an array are cut");
-    std::memcpy(&count, bytes.data(), header);
-    if (count > bytes.size() - header) fail(array.position, "the data of an array are cut");
-    return std::string(bytes.substr(header, static_cast<std::size_t>(count)));
+    return long_headers_ ? 8 : 4;
   }
 
+  /// Number i of a header.
+  std::size_t header(const Array& array, std::string_view bytes, std::size_t i) const
+  {
+    const std::size_t size = header_size();
+    if (bytes.size() / size <= i) fail(array.position, "the data of an array are cut");
+    std::uint64_t number = 0;
+    std::memcpy(&number, bytes.data() + i * size, size);
+    return static_cast<std::size_t>(number);
+  }
+
+  std::string counted_bytes(const Array& array, std::string_view bytes) const
+  {
+    if (is_compressed_)
+      return decompressed(array, bytes, bytes.substr((std::min)(compressed_header(array, bytes), bytes.size())));
+    const std::size_t count = header(array, bytes, 0);
+    if (count > bytes.size() - header_size()) fail(array.position, "the data of an array are cut");
+    return std::string(bytes.substr(header_size(), count));
+  }
+
+  /// The length of the header of compressed data.
+  std::size_t compressed_header(const Array& array, std::string_view bytes) const
+  {
+    const std::size_t blocks = header(array, bytes, 0);
+    if (blocks > bytes.size()) fail(array.position, "the data of an array are cut");
+    return (3 + blocks) * header_size();
+  }
+
+  std::string decompressed(const Array& array, [[maybe_unused]] std::string_view head,
+                           [[maybe_unused]] std::string_view blocks) const
+  {
+#ifdef WEFT_LINKED_WITH_ZLIB
+    const std::size_t n = header(array, head, 0);
+    std::string result;
+    for (std::size_t b = 0; b < n; ++b) {
+      const std::size_t last = header(array, head, 2), length = header(array, head, 3 + b),
+                        size = b + 1 == n && last > 0 ? last : header(array, head, 1);
+      // zlib makes nothing shorter than by a factor of 1032.
+      if (length > blocks.size() || size / 1040 > length) fail(array.position, "the data of an array are cut");
+      const auto block = decompressed_block(blocks.substr(0, length), size);
+      if (!block) fail(array.position, "the compressed data of an array are damaged");
+      result += *block;
+      blocks.remove_prefix(length);
+    }
+    return result;
+#else
+    fail(array.position, "arrays are compressed");
+#endif
+  }
+
+  /// Of compressed data the header is a run of base64 of its own.
   std::string base64(const Array& array, std::string_view text) const
   {
-    require_plain(array);
+    require_readable(array);
+    if (!is_compressed_) return counted_bytes(array, bytes_of(text, std::string_view::npos));
+    const auto begin = text.find_first_not_of(" \t\r\n");
+    text.remove_prefix((std::min)(begin, text.size()));
+    const std::size_t size = compressed_header(array, bytes_of(text, (header_size() + 2) / 3 * 4));
+    const std::size_t digits = (size + 2) / 3 * 4;
+    if (digits > text.size()) fail(array.position, "the data of an array are cut");
+    return decompressed(array, bytes_of(text, digits), bytes_of(text.substr(digits), std::string_view::npos));
+  }
+
+  /// What so many characters of base64 stand for, or those up to the first that is neither that nor a blank.
+  static std::string bytes_of(std::string_view text, std::size_t characters)
+  {
     static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<int, 256> value;
     value.fill(-1);
@@ -240,7 +306,7 @@ private:
     std::string bytes;
     unsigned bits = 0;
     int held = 0;
-    for (const char c : text) {
+    for (const char c : text.substr(0, characters)) {
       const int digit = value[static_cast<unsigned char>(c)];
       if (c == '=' || c == '<') break;
       if (digit < 0) continue;
@@ -250,7 +316,7 @@ private:
       held -= 8;
       bytes += static_cast<char>(bits >> held & 0xffu);
     }
-    return counted_bytes(array, bytes);
+    return bytes;
   }
 
   std::vector<double> decoded(const Array& array, const std::string& bytes) const
@@ -281,7 +347,7 @@ private:
     return result;
   }
 
-  std::string filename_, text_, byte_order_;
+  std::string filename_, text_, byte_order_, compressor_;
   bool long_headers_ = false, is_compressed_ = false, appended_is_base64_ = false;
   std::size_t points_ = 0, cells_ = 0, appended_ = std::string::npos;
   std::map<std::pair<std::string, std::string>, Array> arrays_; ///< by section and name

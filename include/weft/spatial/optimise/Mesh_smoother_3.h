@@ -14,7 +14,7 @@
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/optimise/smoothers_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
-#include <weft/spatial/restricted/project_on_location_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 
 #include <CGAL/number_utils.h>

@@ -9,7 +9,7 @@
 #include <weft/spatial/optimise/Perturb_options_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
 #include <weft/spatial/optimise/Success_rates.h>
-#include <weft/spatial/restricted/project_on_location_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/number_utils.h>

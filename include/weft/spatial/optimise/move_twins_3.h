@@ -11,7 +11,7 @@
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
-#include <weft/spatial/restricted/project_on_location_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 
 #include <CGAL/number_utils.h>
@@ -125,7 +125,7 @@ private:
     for (int k = 0; k < most_trials && !groups.empty(); ++k) {
       const std::optional<Cell_handle> c = find(ids);
       if (!c || !(judge_.measure(*c) > bound_)) return 0;
-      if (trials_left_ == 0) return 0;
+      if (trials_left_ == 0 || !goes_on_()) return 0; // a trial takes long in a large mesh
       --trials_left_;
       const auto& group = groups[static_cast<std::size_t>(k) % groups.size()];
       const double reach = farthest * std::pow(0.9, static_cast<double>(k) / static_cast<double>(groups.size()));

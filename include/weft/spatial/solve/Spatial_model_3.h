@@ -19,7 +19,7 @@
 #include <weft/spatial/optimise/Move_shortener_3.h>
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
-#include <weft/spatial/restricted/project_on_location_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 
 #include <CGAL/number_utils.h>
 

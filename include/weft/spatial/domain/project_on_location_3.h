@@ -2,8 +2,8 @@
 //
 // Brings a point back to where a vertex may lie: onto its own patch or crease (Tournois 2009, sec. 3.2.1.5).
 
-#ifndef WEFT_SPATIAL_RESTRICTED_PROJECT_ON_LOCATION_3_H
-#define WEFT_SPATIAL_RESTRICTED_PROJECT_ON_LOCATION_3_H
+#ifndef WEFT_SPATIAL_DOMAIN_PROJECT_ON_LOCATION_3_H
+#define WEFT_SPATIAL_DOMAIN_PROJECT_ON_LOCATION_3_H
 
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
@@ -27,4 +27,4 @@ project_on_location(const Oracle& oracle, const typename Oracle::Kernel::Point_3
 
 } // namespace weft::internal
 
-#endif // WEFT_SPATIAL_RESTRICTED_PROJECT_ON_LOCATION_3_H
+#endif // WEFT_SPATIAL_DOMAIN_PROJECT_ON_LOCATION_3_H
