@@ -62,7 +62,9 @@ void add_options(command_line::Options& options, Request& request)
                  "edges of the boundary are sharp from this angle between normals on (default 60)");
   options.number("--min-dihedral", "DEG", 0, 90, request.min_dihedral,
                  "smallest dihedral angle to perturb slivers for; without it 20, if it can be reached");
-  add_outputs(options, request, ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), or of the boundary alone .off or .stl");
+  add_outputs(
+      options, request,
+      ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl");
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   add_seed_threads_and_time(options, request.options);
   add_max_vertices(options, request.options);

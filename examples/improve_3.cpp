@@ -68,7 +68,9 @@ void add_options(command_line::Options& options, Request& request)
   options.number("--min-dihedral", "DEG", 0, 90, request.min_dihedral,
                  "smallest dihedral angle to work for, 90 to go as far as possible; without it 25,\nif it can be "
                  "reached");
-  add_outputs(options, request, ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), or of the boundary alone .off or .stl");
+  add_outputs(
+      options, request,
+      ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl");
   add_report(options, request, "counts, quality before and after, time per stage");
   add_histogram(options, request, "a picture of the distributions of dihedral angles before and after");
   add_seed_threads_and_time(options, run);
