@@ -43,11 +43,18 @@ class Intersection_resolver_3
 public:
   /// \pre No triangle is degenerate, and no two have the same vertices. Pieces have the origins of their triangles; of
   /// pieces on the same vertices each stays.
+  /// \param pairs those of `intersecting_triangles()`.
   /// \param options is asked whether to go on, and has to stay.
   /// \param tolerance within it triangles are put into one plane before; 0: they aren't.
-  Intersection_resolver_3(Triangle_surface_3<K>& surface, const Mend_options_3& options, double tolerance)
-      : surface_(surface), options_(options), tolerance_(tolerance)
-  {}
+  Intersection_resolver_3(Triangle_surface_3<K>& surface, std::vector<std::array<std::size_t, 2>> pairs,
+                          const Mend_options_3& options, double tolerance)
+      : surface_(surface), pairs_(std::move(pairs)), options_(options), tolerance_(tolerance)
+  {
+    if (tolerance_ > 0) snap();
+  }
+
+  /// Whether points were put onto planes; without that a tolerance changes nothing.
+  bool has_planes() const { return has_planes_; }
 
   /// How many points were moved onto planes.
   std::size_t snapped() const { return snapped_; }
@@ -58,13 +65,11 @@ public:
   /// Returns how many pairs of triangles were cut. \throws Domain_error if there are far too many.
   std::size_t resolve()
   {
-    auto pairs = intersecting_triangles(surface_, sorted_sides(surface_.triangles));
-    if (tolerance_ > 0) snap(pairs);
-    for (auto& pair : pairs) std::sort(pair.begin(), pair.end());
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    if (pairs.size() > most_pairs) throw Domain_error("too many facets intersect", {}, {});
-    for (const auto& [s, t] : pairs) {
+    for (auto& pair : pairs_) std::sort(pair.begin(), pair.end());
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    if (pairs_.size() > most_pairs) throw Domain_error("too many facets intersect", {}, {});
+    for (const auto& [s, t] : pairs_) {
       ask_to_go_on(options_, "intersecting facets");
       meet(s, t);
     }
@@ -86,10 +91,11 @@ public:
 
 private:
   /// Moves points onto planes; adds pairs that this may have brought together.
-  void snap(std::vector<std::array<std::size_t, 2>>& pairs)
+  void snap()
   {
     const Plane_snapper_3<K> snapper(surface_, tolerance_);
-    pairs.insert(pairs.end(), snapper.pairs().begin(), snapper.pairs().end());
+    has_planes_ = !snapper.places().empty();
+    pairs_.insert(pairs_.end(), snapper.pairs().begin(), snapper.pairs().end());
     std::map<std::size_t, std::size_t> alias;
     for (const auto& [v, p] : snapper.places()) {
       exact_vertices_[v] = p;
@@ -187,8 +193,10 @@ private:
   }
 
   Triangle_surface_3<K>& surface_;
+  std::vector<std::array<std::size_t, 2>> pairs_;
   const Mend_options_3& options_;
   double tolerance_;
+  bool has_planes_ = false;
   std::size_t snapped_ = 0, number_of_cuts_ = 0;
   std::vector<std::array<std::size_t, 2>> meeting_;
   std::map<std::size_t, Exact_point> exact_vertices_;
