@@ -880,6 +880,21 @@ TEST_CASE("a group within another is a subdomain, unless it is turned the other 
   CHECK(domain_volume(hollow) == Approx(volume(outer) - volume(inner)));
 }
 
+TEST_CASE("groups of triangles name subdomains for users, who are told when groups don't fit")
+{
+  const Soup soup = grouped({cube(), moved(cube(), 1, 2, 0, 0)}, {"one", "two"}, false);
+  weft::Triangle_domain_options_3 options;
+  options.groups = soup.groups;
+  options.group_names = soup.group_names;
+  const auto domain = weft::domain_from_triangles(soup.points, soup.polygons, options);
+  CHECK(domain.names() == std::vector<std::string>{"one", "two"});
+  CHECK(domain.oracle->subdomain(Point(2.5, 0.5, 0.5)) == 2);
+  options.group_names.pop_back();
+  CHECK_THROWS_AS(weft::domain_from_triangles(soup.points, soup.polygons, options), weft::Option_error);
+  options.groups.pop_back();
+  CHECK_THROWS_AS(weft::domain_from_triangles(soup.points, soup.polygons, options), weft::Option_error);
+}
+
 TEST_CASE("names of several surfaces are those of their subdomains, and differ")
 {
   std::vector<Soup> soups = {soup_of(cube()), soup_of(moved(cube(), 1, 1, 0, 0)), soup_of(moved(cube(), 1, 3, 0, 0))};

@@ -65,6 +65,7 @@ public:
     const auto sides = sorted_sides(all_.triangles);
     parts_ = Disjoint_parts(all_.triangles.size());
     for_each_edge(sides, [&](auto first, auto last) {
+      is_open_ = is_open_ || (last - first) % 2 == 1;
       for (auto other = first + 1; other != last; ++other) parts_.unite(first->triangle, other->triangle);
     });
     pairs_ = intersecting_triangles(all_, sides);
@@ -80,6 +81,9 @@ public:
     }
     for (std::size_t i = are_alike ? 0 : ways_.size(); i-- > 0;) ways_.push_back({i, true});
   }
+
+  /// Whether the surfaces have holes, or caps of them don't close them.
+  bool is_open() const { return is_open_; }
 
   /// Goes to the next way that differs from those before; false if there is none.
   bool next()
@@ -167,6 +171,7 @@ private:
   Disjoint_parts parts_{0};                     ///< what hangs together across edges
   std::vector<std::array<std::size_t, 2>> pairs_;
   double diagonal_ = 0;
+  bool is_open_ = false;
   std::vector<Cut> cuts_;
   std::vector<Way> ways_;
   Way way_;

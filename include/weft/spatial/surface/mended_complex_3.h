@@ -134,10 +134,14 @@ Piecewise_smooth_complex_3<K> mend_complex(const Polygon_soup_3<K>& soup, const 
     }
     try {
       Surface_resolver_3<K> resolver({soup}, mending, with_caps);
-      while (resolver.next()) try {
+      while (resolver.next()) {
+        try {
           return complex_of_resolved(resolver.resolved()[0], by_angle_only(options), mending);
         } catch (const Domain_error&) {
         }
+        // Holes may lie within other parts; if they don't, only caps help.
+        if (!with_caps && mending.most_capped > 0 && resolver.is_open()) break;
+      }
     } catch (const Domain_error&) {
     }
   }
