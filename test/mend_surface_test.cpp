@@ -6,6 +6,7 @@
 
 #include "fixtures/surfaces_3.h"
 
+#include <weft/IO/read_surface.h>
 #include <weft/spatial/domain/domain_from_triangles.h>
 #include <weft/spatial/surface/compare_with_given_3.h>
 #include <weft/spatial/surface/mended_complex_3.h>
@@ -15,6 +16,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <map>
 #include <random>
 #include <set>
@@ -750,6 +753,202 @@ TEST_CASE("soups of random boxes, balls and tubes with dirt are their union: vol
     CHECK(differ <= (seed % 3 == 0 ? samples / 50 : 0)); // a missing facet of a tube is a strip that its cap cuts off
     CHECK(domain_volume(complex) == Approx(box.x_span() * box.y_span() * box.z_span() * inside / samples).epsilon(0.1));
   }
+}
+
+// ---- Groups of facets
+
+namespace {
+
+/// Surfaces as groups of one soup.
+Soup grouped(const std::vector<Surface>& parts, const std::vector<std::string>& names, bool are_solids)
+{
+  Surface all;
+  Soup soup;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    all = together(all, parts[i]);
+    soup.groups.resize(all.triangles.size(), i);
+  }
+  const Soup plain = soup_of(all);
+  soup.points = plain.points;
+  soup.polygons = plain.polygons;
+  soup.group_names = names;
+  soup.groups_are_solids = are_solids;
+  return soup;
+}
+
+std::string name_of(const Complex& complex, int subdomain)
+{
+  const auto i = std::size_t(subdomain);
+  return i > 0 && i <= complex.names.size() ? complex.names[i - 1] : "";
+}
+
+std::string name_at(const Complex& complex, double x, double y, double z)
+{
+  const weft::Polyhedral_oracle_3<K> oracle(complex);
+  const int subdomain = oracle.subdomain(Point(x, y, z));
+  return subdomain == 0 ? "outside" : name_of(complex, subdomain);
+}
+
+} // namespace
+
+TEST_CASE("solids of one surface are subdomains with their names; the smaller has what two have in common")
+{
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    INFO("seed " << seed);
+    Random random(seed);
+    const int n = 4;
+    std::vector<Block> blocks;
+    std::vector<Surface> parts;
+    std::vector<std::string> names;
+    for (unsigned i = 0; i < 2 + seed % 3; ++i) {
+      blocks.push_back(random_block(random, n));
+      parts.push_back(blocks.back().surface());
+      names.push_back("block " + std::to_string(i));
+    }
+    Soup soup = grouped(parts, names, true);
+    if (seed % 3 == 0) { // a hole
+      const std::size_t at = below(random, soup.polygons.size());
+      soup.polygons.erase(soup.polygons.begin() + long(at));
+      soup.groups.erase(soup.groups.begin() + long(at));
+    }
+    const Complex complex = weft::mended_complex_3(soup);
+    const weft::Polyhedral_oracle_3<K> oracle(complex);
+    const auto size = [&](const Block& b) {
+      return (b.high[0] - b.low[0]) * (b.high[1] - b.low[1]) * (b.high[2] - b.low[2]);
+    };
+    INFO(all_changes(complex));
+    int differ = 0;
+    for (int x = -1; x <= n; ++x)
+      for (int y = -1; y <= n; ++y)
+        for (int z = -1; z <= n; ++z) {
+          std::size_t expected = blocks.size();
+          for (std::size_t i = 0; i < blocks.size(); ++i)
+            if (blocks[i].has({x, y, z}) && (expected == blocks.size() || size(blocks[i]) <= size(blocks[expected])))
+              expected = i;
+          const int subdomain = oracle.subdomain(Point(x + 0.5, y + 0.45, z + 0.55));
+          differ += expected == blocks.size() ? subdomain != 0 : name_of(complex, subdomain) != names[expected];
+        }
+    CHECK(differ == 0);
+  }
+}
+
+TEST_CASE("groups name the regions that they bound with walls in common")
+{
+  // Two cubes, of which only the first has the wall between them.
+  const Surface left = cube();
+  Surface right = moved(cube(), 1, 1, 0, 0);
+  const auto is_wall = [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::size_t v) { return right.points[v].x() == 1; });
+  };
+  right.triangles.erase(std::remove_if(right.triangles.begin(), right.triangles.end(), is_wall), right.triangles.end());
+  REQUIRE(right.triangles.size() + 2 == left.triangles.size());
+  for (const bool are_solids : {false, true}) {
+    const Complex complex = weft::mended_complex_3(grouped({left, right}, {"iron", "wood"}, are_solids));
+    CHECK(name_at(complex, 0.5, 0.4, 0.3) == "iron");
+    CHECK(name_at(complex, 1.5, 0.4, 0.3) == "wood");
+    CHECK(domain_volume(complex) == Approx(2));
+  }
+}
+
+TEST_CASE("groups that are parts of one boundary, or aren't solids and overlap, divide nothing")
+{
+  const Surface one = cube();
+  Soup sides = soup_of(one);
+  for (std::size_t f = 0; f < sides.polygons.size(); ++f) {
+    sides.groups.push_back(f / 2);
+    sides.group_names.push_back("side " + std::to_string(f));
+  }
+  const Complex box = weft::mended_complex_3(sides);
+  CHECK(box.sides.empty());
+  CHECK(box.names.empty());
+  CHECK(box.changes.empty());
+  const Complex both = weft::mended_complex_3(grouped({one, moved(cube(), 1, 0.5, 0.3, 0.2)}, {"red", "blue"}, false));
+  CHECK(both.sides.empty());
+  CHECK(both.names.empty());
+  CHECK(domain_volume(both) == Approx(2 - 0.5 * 0.7 * 0.8));
+}
+
+TEST_CASE("a group within another is a subdomain, unless it is turned the other way: then it is a cavity")
+{
+  const Surface outer = sphere(2), inner = moved(sphere(1), 0.4, 0, 0, 0);
+  const Complex filled = weft::mended_complex_3(grouped({inner, outer}, {"core", "hull"}, false));
+  CHECK(name_at(filled, 0, 0, 0) == "core");
+  CHECK(name_at(filled, 0.7, 0, 0) == "hull");
+  CHECK(filled.mending.turned == 0);
+  const Complex hollow = weft::mended_complex_3(grouped({inside_out(inner), outer}, {"core", "hull"}, false));
+  CHECK(name_at(hollow, 0, 0, 0) == "outside");
+  CHECK(domain_volume(hollow) == Approx(volume(outer) - volume(inner)));
+}
+
+TEST_CASE("groups of triangles name subdomains for users, who are told when groups don't fit")
+{
+  const Soup soup = grouped({cube(), moved(cube(), 1, 2, 0, 0)}, {"one", "two"}, false);
+  weft::Triangle_domain_options_3 options;
+  options.groups = soup.groups;
+  options.group_names = soup.group_names;
+  const auto domain = weft::domain_from_triangles(soup.points, soup.polygons, options);
+  CHECK(domain.names() == std::vector<std::string>{"one", "two"});
+  CHECK(domain.oracle->subdomain(Point(2.5, 0.5, 0.5)) == 2);
+  options.group_names.pop_back();
+  CHECK_THROWS_AS(weft::domain_from_triangles(soup.points, soup.polygons, options), weft::Option_error);
+  options.groups.pop_back();
+  CHECK_THROWS_AS(weft::domain_from_triangles(soup.points, soup.polygons, options), weft::Option_error);
+}
+
+TEST_CASE("names of several surfaces are those of their subdomains, and differ")
+{
+  std::vector<Soup> soups = {soup_of(cube()), soup_of(moved(cube(), 1, 1, 0, 0)), soup_of(moved(cube(), 1, 3, 0, 0))};
+  for (Soup& soup : soups) soup.name = "part";
+  const Complex complex = weft::mended_complex_3(soups);
+  CHECK(complex.names == std::vector<std::string>{"part", "part 2", "part 3"});
+  CHECK(name_at(complex, 1.5, 0.5, 0.5) == "part 2");
+}
+
+TEST_CASE("readers keep solids, objects, groups, materials and colours apart")
+{
+  using Names = std::vector<std::string>;
+  using Groups = std::vector<std::size_t>;
+  const auto read = [](const std::string& extension, const std::string& text) {
+    const std::string name = "mend_surface_test_groups." + extension;
+    std::ofstream(name) << text;
+    const Soup soup = weft::IO::read_surface<K>(name);
+    std::remove(name.c_str());
+    return soup;
+  };
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  const Soup stl = read("stl", "solid a bolt \n" + facet + facet + "endsolid a bolt\nsolid\n" + facet + "endsolid\n");
+  CHECK(stl.group_names == Names{"a bolt", ""});
+  CHECK(stl.groups == Groups{0, 0, 1});
+  CHECK(stl.groups_are_solids);
+  CHECK(read("stl", "solid a\n" + facet + "endsolid a\n").groups.empty());
+
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const Soup objects = read("obj", points + "o x\ng p\nusemtl m\nf 1 2 3\no y\nf 1 2 3\no x\nf 1 2 3\n");
+  CHECK(objects.group_names == Names{"x", "y"});
+  CHECK(objects.groups == Groups{0, 1, 0});
+  CHECK(!objects.groups_are_solids);
+  const Soup materials = read("obj", points + "o x\nf 1 2 3\nusemtl m\nf 1 2 3\nusemtl n\nf 1 2 3\n");
+  CHECK(materials.group_names == Names{"", "m", "n"});
+  CHECK(read("obj", points + "o x\nf 1 2 3\n").groups.empty());
+
+  const std::string off = "3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 128 0\n3 0 1 2 1.0 0.5 0.0 1.0\n3 0 1 2\n";
+  const Soup colours = read("off", "OFF\n" + off);
+  CHECK(colours.group_names == Names{"#ff8000", ""});
+  CHECK(colours.groups == Groups{0, 0, 1});
+  CHECK(read("off", "OFF" + off).polygons.size() == 3); // no blank behind the keyword
+
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                             "property float z\nelement face 2\nproperty list uchar int vertex_indices\n";
+  const std::string corners = "end_header\n0 0 0\n1 0 0\n0 1 0\n";
+  const Soup ply = read("ply", header + "property uchar red\nproperty uchar green\nproperty uchar blue\n" + corners +
+                                   "3 0 1 2 255 0 0\n3 0 1 2 0 0 255\n");
+  CHECK(ply.group_names == Names{"#ff0000", "#0000ff"});
+  CHECK(ply.groups == Groups{0, 1});
+  // More than the header tells, on the same lines.
+  const Soup surplus = read("ply", header + corners + "3 0 1 2 9 1 1 1\n3 0 1 2 9 1 1 1\n");
+  CHECK(surplus.polygons == std::vector<std::vector<std::size_t>>{{0, 1, 2}, {0, 1, 2}});
+  CHECK_THROWS_AS(read("ply", header + corners + "3 0 1 2\n3 0 1 2\n3 0 1 2\n"), weft::File_error);
 }
 
 // ---- For users

@@ -375,6 +375,36 @@ TEST_CASE("the boundary that was written can be read and meshed again")
   }
 }
 
+TEST_CASE("solids of an .stl file are subdomains whose names are in the files, and so are several files")
+{
+  const Folder folder("solids");
+  const auto solid = [](const std::string& name, int by) {
+    const std::vector<std::vector<int>> quadrangles = {{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5},
+                                                       {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
+    std::ostringstream text;
+    text << "solid " << name << "\n";
+    for (const auto& q : quadrangles)
+      for (const auto& t : {std::vector<int>{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}) {
+        text << "facet normal 0 0 0\nouter loop\n";
+        for (const int v : t)
+          text << "vertex " << by + (v % 4 == 1 || v % 4 == 2) << " " << (v % 4 > 1) << " " << v / 4 << "\n";
+        text << "endloop\nendfacet\n";
+      }
+    return text.str() + "endsolid " + name + "\n";
+  };
+  folder.write("two.stl", solid("bolt", 0) + solid("nut", 1));
+  const Outcome outcome = folder.run("two.stl --size 1 --output t.msh --report r.json");
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.err, "subdomain 2 is \"nut\""));
+  CHECK(contains(folder.read("t.msh"), "3 1 \"bolt\""));
+  CHECK(contains(folder.read("t.msh"), "3 2 \"nut\""));
+  CHECK(number(folder.read("r.json"), "volume") == Approx(2));
+  folder.write("far.stl", solid("nut", 3));
+  CHECK(folder.run("cube.off far.stl --size 1 --name 2:lid --output u.msh").status == 0);
+  CHECK(contains(folder.read("u.msh"), "3 1 \"cube\""));
+  CHECK(contains(folder.read("u.msh"), "3 2 \"lid\""));
+}
+
 TEST_CASE("help and version go to stdout, and the help names every option of the usage")
 {
   const Folder folder("help");

@@ -15,6 +15,8 @@
 #include <CGAL/Bbox_3.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -27,9 +29,10 @@ using Surfaces = std::vector<weft::Polygon_soup_3<K>>;
 class Surface_domain : public Domain
 {
 public:
+  /// \param is_named_by_files whether names are those of files; otherwise users are told which they are.
   /// \param given the surfaces before they were mended, if they were.
-  explicit Surface_domain(weft::Piecewise_smooth_complex_3<K> surface, Surfaces given = {})
-      : surface_(std::move(surface)), given_(std::move(given))
+  Surface_domain(weft::Piecewise_smooth_complex_3<K> surface, bool is_named_by_files, Surfaces given = {})
+      : surface_(std::move(surface)), is_named_by_files_(is_named_by_files), given_(std::move(given))
   {}
 
   double extent() const override
@@ -39,10 +42,19 @@ public:
     return diagonal(box);
   }
   double detail() const override { return 0; }
-  std::vector<std::string> changes() const override { return surface_.changes; }
+  std::vector<std::string> changes() const override
+  {
+    std::vector<std::string> lines = surface_.changes;
+    if (!is_named_by_files_)
+      for (const auto& [subdomain, name] : names())
+        lines.push_back("subdomain " + std::to_string(subdomain) + " is \"" + name + '"');
+    return lines;
+  }
   std::shared_ptr<const Result> mesh(const Bounds& bounds, const weft::Mesh_options_3& options) const override
   {
-    auto result = mesh_surface(surface_, bounds, options);
+    Bounds named = bounds;
+    for (const auto& [subdomain, name] : names()) named.name_of.try_emplace(subdomain, name);
+    auto result = mesh_surface(surface_, named, options);
     double approximation = bounds.approximation;
     bool is_bounded = approximation > 0;
     for (const auto& [label, length] : bounds.approximation_of) {
@@ -56,7 +68,20 @@ public:
   }
 
 private:
+  /// Of subdomains that there are.
+  std::map<int, std::string> names() const
+  {
+    std::map<int, std::string> names;
+    for (const auto& [behind, before] : surface_.sides)
+      for (const int subdomain : {behind, before})
+        if (const auto i = static_cast<std::size_t>(subdomain);
+            i > 0 && i <= surface_.names.size() && !surface_.names[i - 1].empty())
+          names[subdomain] = surface_.names[i - 1];
+    return names;
+  }
+
   weft::Piecewise_smooth_complex_3<K> surface_;
+  bool is_named_by_files_;
   Surfaces given_;
 };
 
@@ -66,14 +91,17 @@ std::unique_ptr<Domain> read_surfaces(const std::vector<std::string>& filenames,
                                       const Mending& mending)
 {
   Surfaces surfaces;
+  const bool is_named_by_files = filenames.size() > 1;
   for (const std::string& name : filenames) {
     weft::internal::ask_to_go_on(mending.options, "reading");
     surfaces.push_back(weft::IO::read_surface<K>(name));
+    if (is_named_by_files) surfaces.back().name = std::filesystem::path(name).stem().string();
   }
-  if (mending.strict) return std::make_unique<Surface_domain>(weft::piecewise_smooth_complex(surfaces, features));
+  if (mending.strict)
+    return std::make_unique<Surface_domain>(weft::piecewise_smooth_complex(surfaces, features), is_named_by_files);
   auto complex = weft::mended_complex_3(surfaces, features, mending.options);
   if (complex.changes.empty()) surfaces.clear(); // the mesh is compared with the complex
-  return std::make_unique<Surface_domain>(std::move(complex), std::move(surfaces));
+  return std::make_unique<Surface_domain>(std::move(complex), is_named_by_files, std::move(surfaces));
 }
 
 std::function<double(const std::array<double, 3>&)> read_size_field(const std::string& filename)

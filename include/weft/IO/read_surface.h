@@ -14,6 +14,9 @@
 #include <weft/IO/internal/read_stl_surface.h>
 #include <weft/IO/internal/surface_text_formats.h>
 #include <weft/spatial/surface/Polygon_soup_3.h>
+#ifdef WEFT_LINKED_WITH_LIB3MF
+#include <weft/IO/internal/read_3mf_surface.h>
+#endif
 
 #include <CGAL/number_utils.h>
 
@@ -31,6 +34,13 @@ Polygon_soup_3<K> read_any_surface(const std::string& filename)
   if (type == "obj") return read_obj_surface<K>(filename);
   if (type == "stl") return read_stl_surface<K>(filename);
   if (type == "ply") return read_ply_surface<K>(filename);
+  if (type == "3mf") {
+#ifdef WEFT_LINKED_WITH_LIB3MF
+    return read_3mf_surface<K>(filename);
+#else
+    throw File_error(filename, 0, "3MF files are read only by programs that were built where lib3mf is installed");
+#endif
+  }
   throw File_error(filename, 0, "unknown extension; known are .off, .obj, .stl and .ply");
 }
 
@@ -38,8 +48,10 @@ Polygon_soup_3<K> read_any_surface(const std::string& filename)
 
 namespace IO {
 
-/// Reads a surface from a .off or .obj file (text), or a .stl or .ply file (text or binary). Points and facets are
-/// numbered as in the file; only in .stl files, where every facet has its own corners, equal points become one.
+/// Reads a surface from a .off or .obj file (text), a .stl or .ply file (text or binary), or a .3mf file, if
+/// WEFT_LINKED_WITH_LIB3MF is defined and lib3MF linked. Points and facets are numbered as in the file; only in .stl
+/// files, where every facet has its own corners, equal points become one. Solids of .stl and .3mf files, objects,
+/// groups or materials of .obj files, and colours of facets in .off and .ply files are the surface's groups.
 /// Whether the facets form a surface is checked by `piecewise_smooth_complex()`, not here.
 /// \tparam K a CGAL kernel.
 /// \throws File_error if the extension is unknown or the file is missing, cut or malformed, has no facets, or has

@@ -97,6 +97,19 @@ public:
     return result;
   }
 
+  /// Passes over so many characters of the next word.
+  void skip(std::size_t n) { rest_.remove_prefix(n); }
+
+  /// What is left of the line as a name: without blanks around it, characters that control, and quotes.
+  std::string rest_of_line()
+  {
+    std::string result(rest_.substr(0, rest_.find_last_not_of(blanks) + 1));
+    rest_ = {};
+    const auto is_bad = [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127 || c == '"'; };
+    result.erase(std::remove_if(result.begin(), result.end(), is_bad), result.end());
+    return result;
+  }
+
   /// Next word as a finite number.
   double number(const std::string& what)
   {

@@ -6,6 +6,7 @@
 #ifndef WEFT_IO_INTERNAL_READ_STL_SURFACE_H
 #define WEFT_IO_INTERNAL_READ_STL_SURFACE_H
 
+#include <weft/IO/internal/Group_collector.h>
 #include <weft/IO/internal/Line_reader.h>
 #include <weft/spatial/surface/Polygon_soup_3.h>
 
@@ -43,21 +44,24 @@ private:
   std::map<std::array<double, 3>, std::size_t> numbers_;
 };
 
-/// Reads a text STL; several solids in one file form one surface.
+/// Reads a text STL; solids in it are groups.
 template <class K>
 Polygon_soup_3<K> read_text_stl(const std::string& filename)
 {
   Line_reader in(filename);
   Point_merger_3<K> merger;
+  Group_collector solids;
   bool in_solid = false, in_facet = false;
   while (in.next_line()) {
     const std::string_view keyword = in.word("a keyword");
     if (keyword == "solid") {
       in_solid = true;
+      solids.enter_another(in.rest_of_line());
     } else if (keyword == "facet") {
       if (!in_solid || in_facet) in.fail("unexpected 'facet'");
       in_facet = true;
       merger.start_facet();
+      solids.add_facet();
     } else if (keyword == "vertex") {
       if (!in_facet) in.fail("a vertex outside of a facet");
       const double x = in.number("x"), y = in.number("y"), z = in.number("z");
@@ -73,6 +77,8 @@ Polygon_soup_3<K> read_text_stl(const std::string& filename)
     }
   }
   if (in_solid) in.fail("the file ends where 'endsolid' should follow");
+  solids.finish(merger.soup());
+  merger.soup().groups_are_solids = !merger.soup().groups.empty();
   return std::move(merger.soup());
 }
 

@@ -50,6 +50,9 @@ struct Domain_from_triangles_3
   const Mending_record_3& record() const { return complex().mending; }
   /// The same for people, a line for each thing, and which shells were turned over.
   const std::vector<std::string>& changes() const { return complex().changes; }
+  /// Names of the subdomains from 1 on, where groups or surfaces name them; may be empty. `Mesh_names_3` takes them to
+  /// files.
+  const std::vector<std::string>& names() const { return complex().names; }
 };
 
 /// Options of `domain_from_triangles()`.
@@ -57,6 +60,11 @@ struct Triangle_domain_options_3
 {
   Feature_options features;
   Mend_options_3 mending;
+  /// Of each polygon the position of its group's name: groups that bound regions are subdomains with these names, as
+  /// `mended_complex_3()` says. Empty: no groups. Several surfaces have groups of their own.
+  std::vector<std::size_t> groups = {};
+  std::vector<std::string> group_names = {};
+  bool groups_are_solids = false; ///< whether groups that overlap stay apart, as the solids of an .stl file do
 };
 
 /// The domain that several surfaces bound: number i bounds subdomain i + 1, or several if it is divided; what lies in
@@ -74,7 +82,7 @@ Domain_from_triangles_3<K> domain_from_triangles(const std::vector<Polygon_soup_
 /// `mended_complex_3()` for what is done about these.
 /// \param polygons a range of ranges of positions in `points`, such as std::vector<std::array<int, 3>>.
 /// \throws Domain_error if they bound nothing or can't be mended, with positions of points and polygons.
-/// \throws Option_error if an option is out of range.
+/// \throws Option_error if an option is out of range, or groups don't fit the polygons.
 template <class Point, class Polygons, class K = typename CGAL::Kernel_traits<Point>::Kernel>
 Domain_from_triangles_3<K> domain_from_triangles(const std::vector<Point>& points, const Polygons& polygons,
                                                  const Triangle_domain_options_3& options = {})
@@ -84,6 +92,13 @@ Domain_from_triangles_3<K> domain_from_triangles(const std::vector<Point>& point
     soup.polygons.emplace_back();
     for (const auto corner : polygon) soup.polygons.back().push_back(static_cast<std::size_t>(corner));
   }
+  soup.groups = options.groups;
+  soup.group_names = options.group_names;
+  soup.groups_are_solids = options.groups_are_solids;
+  if (!soup.groups.empty() && soup.groups.size() != soup.polygons.size())
+    throw Option_error("groups must be one for each polygon");
+  for (const std::size_t group : soup.groups)
+    if (group >= soup.group_names.size()) throw Option_error("groups must have names, which may be empty");
   return domain_from_triangles(std::vector<Polygon_soup_3<K>>{std::move(soup)}, options);
 }
 

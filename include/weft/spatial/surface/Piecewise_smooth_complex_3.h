@@ -61,6 +61,7 @@ struct Piecewise_smooth_complex_3
   std::vector<Feature> features; ///< in the order of their vertices
   /// Of each patch, the subdomains behind it and before it, where there are several; empty: 1 behind, 0 before.
   std::vector<std::pair<int, int>> sides;
+  std::vector<std::string> names;             ///< of the subdomains from 1 on, where something names them; may be empty
   std::vector<std::array<Point, 3>> left_out; ///< triangles of fins and sheets, which bound nothing
   int number_of_patches = 0;
   int number_of_shells = 0;

@@ -124,10 +124,7 @@ private:
     const auto coplanar_orientation = K().coplanar_orientation_3_object();
     const auto& points = surface_.points;
     const auto &a = points[around[0].low], &b = points[around[0].high];
-    const auto apex = [&](const Surface_side_3& s) -> const auto&
-    {
-      return points[surface_.triangles[s.triangle][(s.side + 2) % 3]];
-    };
+    const auto apex = [&](const Surface_side_3& s) { return points[surface_.triangles[s.triangle][(s.side + 2) % 3]]; };
     const auto reference = apex(around[0]);
     std::vector<std::pair<int, Surface_side_3>> sorted;
     for (const Surface_side_3& s : around) {
@@ -286,6 +283,7 @@ private:
           pair.first != components_[regions_[pair.first].component].outer &&
           pair.second != components_[regions_[pair.second].component].outer)
         united.unite(pair.first, pair.second);
+    if (is_union) unite_slivers(united);
 
     std::vector<std::pair<int, int>> sides(surface_.triangles.size(), {0, 0});
     std::map<std::size_t, int> label;
@@ -300,6 +298,29 @@ private:
       sides[t].second = label_of(2 * t + 1);
     }
     return sides;
+  }
+
+  /// Where parts cross that aren't turned alike there are many tiny regions between their facets: each becomes part of
+  /// that region of the domain with which it has the largest area in common.
+  void unite_slivers(Disjoint_parts& united) const
+  {
+    for (bool changes = true; changes;) {
+      changes = false;
+      std::map<std::size_t, double> volumes;
+      double all = 0;
+      for (std::size_t r = 0; r < regions_.size(); ++r)
+        if (regions_[r].is_domain)
+          volumes[united.find(standing_for(r))] += regions_[r].volume, all += regions_[r].volume;
+      std::map<std::size_t, std::pair<double, std::size_t>> most; // of each, what it has most in common with
+      for (const auto& [pair, area] : areas_) {
+        if (!regions_[pair.first].is_domain || !regions_[pair.second].is_domain) continue;
+        const std::size_t a = united.find(standing_for(pair.first)), b = united.find(standing_for(pair.second));
+        for (const auto& [one, other] : {std::make_pair(a, b), std::make_pair(b, a)})
+          if (a != b) most[one] = (std::max)(most[one], std::make_pair(area.total, other));
+      }
+      for (const auto& [region, neighbour] : most)
+        if (volumes[region] <= 1e-4 * all) united.unite(region, neighbour.second), changes = true;
+    }
   }
 
   /// The area between two regions, and how much more of it is turned to the second than to the first.

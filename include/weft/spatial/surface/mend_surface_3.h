@@ -40,7 +40,19 @@ struct Mended_surface_3
   std::vector<std::size_t> pinches; ///< vertices that are in several fans of triangles
   bool is_manifold = false;         ///< two triangles meet in each edge, and the outside is before all of them
   Mending_record_3 record;
-}; /// See the top of the file. \tparam K a CGAL kernel with exact predicates.
+};
+
+/// Which triangles have to be turned over so that all look outwards, and which bound nothing.
+struct Outward_turns_3
+{
+  std::vector<bool> is_turned, bounds_nothing;
+  bool operator==(const Outward_turns_3& other) const
+  {
+    return is_turned == other.is_turned && bounds_nothing == other.bounds_nothing;
+  }
+};
+
+/// See the top of the file. \tparam K a CGAL kernel with exact predicates.
 template <class K>
 class Surface_mender_3 : private Facet_cleaner_3<K>
 {
@@ -71,26 +83,31 @@ public:
     return find_domain(is_union);
   }
 
-  /// Mends what doesn't depend on what the facets bound, and turns each connected part outwards.
-  /// \param by_pieces whether closed pieces are parts of their own, although they share edges.
-  Triangle_surface_3<K> cleaned(std::vector<bool>& bounds_nothing, bool by_pieces)
+  /// Mends what doesn't depend on what the facets bound.
+  Triangle_surface_3<K> cleaned()
   {
     Base::clean(false);
     if (with_caps_) cap_holes();
-    Triangle_surface_3<K> surface = triangle_surface();
+    return triangle_surface();
+  }
+
+  /// How to turn each connected part of what `cleaned()` returned outwards: taken as a whole, and with closed pieces as
+  /// parts of their own, although they share edges.
+  std::array<Outward_turns_3, 2> outward_turns(const Triangle_surface_3<K>& surface) const
+  {
     const std::vector<int> net = nets();
     Surface_regions_3<K> regions(surface, net);
-    std::vector<bool> is_inwards = regions.looking_inwards();
-    std::vector<Piece_side> outer(is_inwards.size(), Piece_side::unknown);
-    if (by_pieces) outer = sides_of_closed_pieces(surface);
-    for (std::size_t t = 0; t < is_inwards.size(); ++t) {
-      // Where facets cross, regions mean little.
-      bounds_nothing.push_back(outer[t] == Piece_side::unknown && regions.bounds_nothing(t));
-      if (outer[t] != Piece_side::unknown) is_inwards[t] = outer[t] == Piece_side::behind;
+    Outward_turns_3 whole{regions.looking_inwards(), {}};
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      whole.bounds_nothing.push_back(regions.bounds_nothing(t));
+    Outward_turns_3 by_pieces = whole;
+    const std::vector<Piece_side> outer = sides_of_closed_pieces(surface);
+    for (std::size_t t = 0; t < outer.size(); ++t) {
+      if (outer[t] == Piece_side::unknown) continue;
+      by_pieces.is_turned[t] = outer[t] == Piece_side::behind;
+      by_pieces.bounds_nothing[t] = false; // where facets cross, regions mean little
     }
-    for (std::size_t t = 0; t < is_inwards.size(); ++t)
-      if (is_inwards[t]) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
-    return surface;
+    return {std::move(whole), std::move(by_pieces)};
   }
 
   const Mending_record_3& record() const { return record_; }

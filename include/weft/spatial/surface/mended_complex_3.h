@@ -14,12 +14,14 @@
 #include <weft/spatial/surface/mend_surface_3.h>
 #include <weft/spatial/surface/merge_surfaces_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
-#include <weft/spatial/surface/resolve_intersections_3.h>
+#include <weft/spatial/surface/surface_groups_3.h>
+#include <weft/spatial/surface/Surface_resolver_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,8 +57,10 @@ Feature_options options_for_mended(const Feature_options& options, const Mended_
   return result;
 }
 
+/// \param soup the surface that was mended, whose groups name subdomains.
 template <class K>
-Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, const Feature_options& options)
+Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, const Feature_options& options,
+                                                const Polygon_soup_3<K>& soup)
 {
   std::vector<std::string> notes = mended.record.lines();
   Feature_options relocated = options_for_mended(options, mended, notes);
@@ -71,7 +75,10 @@ Piecewise_smooth_complex_3<K> complex_of_mended(Mended_surface_3<K> mended, cons
     for (const auto& [behind, before] : mended.sides) subdomains = (std::max)({subdomains, behind, before});
     if (subdomains > 1)
       notes.push_back("the facets bound " + std::to_string(subdomains) + " subdomains, some of which touch");
+    const auto names = names_of_subdomains(mended.surface.points, mended.surface.triangles, mended.sides,
+                                           mended.surface.origins, soup);
     complex = interface_complex_3(std::move(mended.surface), mended.sides, relocated);
+    complex.names = names;
   }
   complex.changes.insert(complex.changes.begin(), notes.begin(), notes.end());
   complex.left_out = std::move(mended.left_out);
@@ -87,88 +94,6 @@ inline Feature_options by_angle_only(Feature_options options)
   return options;
 }
 
-/// A surface whose facets are cut where they meet.
-template <class K>
-struct Resolved_surface_3
-{
-  Surface_parts_3<K> given; ///< before, without what bounds nothing
-  Polygon_soup_3<K> soup;
-  Mending_record_3 record; ///< of what was done before
-};
-
-/// A way to cut facets where they meet.
-struct Resolving_3
-{
-  double snapping; ///< tolerance for facets that nearly lie in one plane, in parts of the diagonal
-  bool by_pieces;  ///< see `Surface_mender_3::cleaned()`
-};
-
-/// The ways to try, one after the other: no facets nearly lie in one plane, or but for rounding, or by all that is
-/// allowed.
-inline std::vector<Resolving_3> ways_to_resolve(const Mend_options_3& mending)
-{
-  constexpr double rounding = 1e-12;
-  std::vector<Resolving_3> ways = {{0, false}, {rounding, false}};
-  if (mending.tolerance > rounding) ways.push_back({mending.tolerance, false});
-  for (std::size_t i = ways.size(); i-- > 0;) ways.push_back({ways[i].snapping, true});
-  return ways;
-}
-
-/// Cuts facets where they meet, within each surface and between them.
-/// \param how see `ways_to_resolve()`.
-/// \throws Domain_error.
-template <class K>
-std::vector<Resolved_surface_3<K>> resolve(const std::vector<Polygon_soup_3<K>>& soups, const Mend_options_3& mending,
-                                           bool with_caps, const Resolving_3& how)
-{
-  std::vector<Resolved_surface_3<K>> result;
-  Triangle_surface_3<K> all;
-  for (std::size_t s = 0; s < soups.size(); ++s) {
-    std::vector<bool> bounds_nothing;
-    Surface_mender_3<K> mender(soups[s], mending, with_caps);
-    const Triangle_surface_3<K> surface = mender.cleaned(bounds_nothing, how.by_pieces);
-    result.emplace_back();
-    result.back().record = mender.record();
-    result.back().given.surface.points = surface.points;
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      if (!bounds_nothing[t]) {
-        result.back().given.surface.triangles.push_back(surface.triangles[t]);
-        result.back().given.part.push_back(all.triangles.size() + t); // so far, the number in `all`
-      }
-    for (const auto& [a, b, c] : surface.triangles)
-      all.triangles.push_back({a + all.points.size(), b + all.points.size(), c + all.points.size()});
-    all.points.insert(all.points.end(), surface.points.begin(), surface.points.end());
-    all.origins.resize(all.triangles.size(), s);
-  }
-  CGAL::Bbox_3 box;
-  for (const auto& p : all.points) box += p.bbox();
-  Disjoint_parts parts(all.triangles.size()), groups(all.triangles.size());
-  for_each_edge(sorted_sides(all.triangles), [&](auto first, auto last) {
-    for (auto other = first + 1; other != last; ++other) parts.unite(first->triangle, other->triangle);
-  });
-  const std::vector<std::size_t> surface_of = all.origins;
-  Intersection_resolver_3<K> resolver(all, mending,
-                                      how.snapping * std::hypot(box.x_span(), box.y_span(), box.z_span()));
-  const std::size_t cut = resolver.resolve();
-  if (cut == 0) throw Domain_error("no facets intersect", {}, {});
-  for (const auto& [a, b] : resolver.pairs())
-    if (surface_of[a] == surface_of[b]) groups.unite(parts.find(a), parts.find(b));
-  for (auto& surface : result) {
-    for (std::size_t& t : surface.given.part) {
-      t = parts.find(t);
-      surface.given.group.push_back(groups.find(t));
-    }
-    surface.soup.points = all.points;
-    surface.record.cut = cut;
-    surface.record.snapped = resolver.snapped();
-  }
-  for (std::size_t t = 0; t < all.triangles.size(); ++t) {
-    const auto& [a, b, c] = all.triangles[t];
-    result[all.origins[t]].soup.polygons.push_back({a, b, c});
-  }
-  return result;
-}
-
 /// The complex of a surface of which `resolve()` has made another.
 template <class K>
 Piecewise_smooth_complex_3<K> complex_of_resolved(const Resolved_surface_3<K>& resolved, const Feature_options& options,
@@ -182,7 +107,7 @@ Piecewise_smooth_complex_3<K> complex_of_resolved(const Resolved_surface_3<K>& r
       mended.record.equal_points = 0; // copies in the pieces
       mended.record.duplicate = 0;
       mended.record.add_earlier(resolved.record);
-      return complex_of_mended(std::move(mended), options);
+      return complex_of_mended(std::move(mended), options, resolved.soup);
     } catch (const Domain_error& error) {
       if (what.empty()) what = error.what();
       if (mending.tolerance == 0) break;
@@ -202,38 +127,49 @@ Piecewise_smooth_complex_3<K> mend_complex(const Polygon_soup_3<K>& soup, const 
     for (const bool everywhere : {false, true}) {
       if (everywhere && mending.tolerance == 0) continue;
       try {
-        return complex_of_mended(Surface_mender_3<K>(soup, mending, with_caps).mend(everywhere), options);
+        return complex_of_mended(Surface_mender_3<K>(soup, mending, with_caps).mend(everywhere), options, soup);
       } catch (const Domain_error& error) {
         if (!everywhere) remains = error.what(); // with caps, if there are any: that comes nearer to a domain
       }
     }
-    for (const Resolving_3& how : ways_to_resolve(mending)) try {
-        const auto resolved = resolve(std::vector<Polygon_soup_3<K>>{soup}, mending, with_caps, how);
-        return complex_of_resolved(resolved[0], by_angle_only(options), mending);
-      } catch (const Domain_error&) {
+    try {
+      Surface_resolver_3<K> resolver({soup}, mending, with_caps);
+      while (resolver.next()) {
+        try {
+          return complex_of_resolved(resolver.resolved()[0], by_angle_only(options), mending);
+        } catch (const Domain_error&) {
+        }
+        // Holes may lie within other parts; if they don't, only caps help.
+        if (!with_caps && mending.most_capped > 0 && resolver.is_open()) break;
       }
+    } catch (const Domain_error&) {
+    }
   }
   if (remains == failure.what()) throw failure;
   throw Domain_error(std::string(failure.what()) + "; mended as far as can be: " + remains, failure.vertices(),
                      failure.elements());
 }
 
-/// Several surfaces, cut where they meet, after merging them has failed.
-/// \throws Domain_error: that failure.
+/// Several surfaces, cut where they meet, after merging them has failed. \throws Domain_error: that failure.
+/// \param order see `merge_surfaces()`.
 template <class K>
 Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3<K>>& surfaces,
                                                 const Feature_options& options, const Mend_options_3& mending,
-                                                const Domain_error& failure)
+                                                const Domain_error& failure, const std::vector<std::size_t>& order)
 {
-  options.check();
-  mending.check();
-  for (const Resolving_3& how : ways_to_resolve(mending)) try {
-      auto resolved = resolve(surfaces, mending, mending.most_capped > 0, how);
+  Surface_resolver_3<K> resolver(surfaces, mending, mending.most_capped > 0);
+  while (resolver.next()) try {
+      auto resolved = resolver.resolved();
       const std::size_t cut = resolved[0].record.cut, snapped = resolved[0].record.snapped;
       for (auto& surface : resolved) surface.record.cut = surface.record.snapped = 0;
-      auto complex = merge_surfaces(resolved, options, [&](const Resolved_surface_3<K>& surface) {
-        return complex_of_resolved(surface, by_angle_only(options), mending);
-      });
+      auto complex = merge_surfaces(
+          resolved, options,
+          [&](const Resolved_surface_3<K>& surface) {
+            auto of_surface = complex_of_resolved(surface, by_angle_only(options), mending);
+            name_by_surface(of_surface, surface.soup.name);
+            return of_surface;
+          },
+          order);
       Mending_record_3 common;
       common.cut = cut;
       common.snapped = snapped;
@@ -244,6 +180,54 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
     } catch (const Domain_error&) {
     }
   throw failure;
+}
+
+/// A surface whose groups don't divide it.
+template <class K>
+Piecewise_smooth_complex_3<K> complex_of_one(const Polygon_soup_3<K>& soup, const Feature_options& options,
+                                             const Mend_options_3& mending)
+{
+  auto complex = [&] {
+    try {
+      return piecewise_smooth_complex(soup, options);
+    } catch (const Domain_error& failure) {
+      return mend_complex(soup, options, mending, failure);
+    }
+  }();
+  name_by_surface(complex, soup.name);
+  return complex;
+}
+
+/// A surface whose groups bound solids. \throws Domain_error if they don't.
+template <class K>
+Piecewise_smooth_complex_3<K> complex_of_solids(const Surface_solids_3<K>& solids, const Feature_options& options,
+                                                const Mend_options_3& mending)
+{
+  std::vector<std::size_t> order(solids.surfaces.size()); // those that others lie in first
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return solids.volumes[a] > solids.volumes[b]; });
+  const auto complex_of = [&](const Polygon_soup_3<K>& surface) { return complex_of_one(surface, options, mending); };
+  try {
+    return merge_surfaces(solids.surfaces, options, complex_of, order);
+  } catch (const Domain_error& failure) {
+    if (!solids.surfaces[0].groups_are_solids) throw;
+    return resolve_and_merge(solids.surfaces, options, mending, failure, order);
+  }
+}
+
+/// A surface whose groups may divide it.
+template <class K>
+Piecewise_smooth_complex_3<K> complex_of_soup(const Polygon_soup_3<K>& soup, const Feature_options& options,
+                                              const Mend_options_3& mending)
+{
+  // Edges and vertices that are given by number belong to the whole.
+  if (options.sharp_edges.empty() && options.tips_and_cusps.empty())
+    if (const auto solids = solids_of_groups(soup); !solids.surfaces.empty()) try {
+        return complex_of_solids(solids, options, mending);
+      } catch (const Domain_error&) {
+      }
+  return complex_of_one(soup, options, mending);
 }
 
 } // namespace internal
@@ -260,7 +244,11 @@ Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3
 /// - facets that intersect or overlap are cut where they meet. Parts that overlap are united, and the curves in which
 ///   they cross are sharp edges from 5 degrees on;
 /// - where facets divide the inside, or parts touch in facets, edges or vertices, each region becomes a subdomain,
-///   numbered from 1 by its first facet.
+///   numbered from 1 by its first facet;
+/// - groups of facets that bound something by themselves are subdomains in their order, with their names; of two that
+///   lie in each other the smaller has what both contain. Solids may also overlap; other groups that do are united. A
+///   group that has nearly all facets between a region and the outside names that region. Groups that are parts of one
+///   boundary, such as the inlet and the wall of a pipe, change nothing.
 ///
 /// No point moves farther than the tolerance, and every facet is found on the mended surface or in `changes`.
 /// \throws Domain_error if the facets don't bound anything, have holes that are too large, or still meet when they have
@@ -273,11 +261,7 @@ Piecewise_smooth_complex_3<K> mended_complex_3(const Polygon_soup_3<K>& soup, co
 {
   options.check();
   mending.check();
-  try {
-    return piecewise_smooth_complex(soup, options);
-  } catch (const Domain_error& failure) {
-    return internal::mend_complex(soup, options, mending, failure);
-  }
+  return internal::complex_of_soup(soup, options, mending);
 }
 
 /// The same for several surfaces, each of which is mended by itself. They are merged as by
@@ -287,12 +271,16 @@ template <class K>
 Piecewise_smooth_complex_3<K> mended_complex_3(const std::vector<Polygon_soup_3<K>>& surfaces,
                                                const Feature_options& options = {}, const Mend_options_3& mending = {})
 {
-  const auto complex_of = [&](const Polygon_soup_3<K>& surface) { return mended_complex_3(surface, options, mending); };
+  options.check();
+  mending.check();
+  const auto complex_of = [&](const Polygon_soup_3<K>& surface) {
+    return internal::complex_of_soup(surface, options, mending);
+  };
   if (surfaces.size() < 2) return internal::merge_surfaces(surfaces, options, complex_of);
   try {
     return internal::merge_surfaces(surfaces, options, complex_of);
   } catch (const Domain_error& failure) {
-    return internal::resolve_and_merge(surfaces, options, mending, failure);
+    return internal::resolve_and_merge(surfaces, options, mending, failure, {});
   }
 }
 

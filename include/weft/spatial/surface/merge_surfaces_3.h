@@ -9,6 +9,7 @@
 #include <weft/internal/boxes/Triangle_hierarchy_3.h>
 #include <weft/spatial/surface/interface_complex_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
+#include <weft/spatial/surface/surface_groups_3.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,24 @@
 
 namespace weft {
 namespace internal {
+
+/// The largest number that a subdomain has.
+template <class K>
+int number_of_subdomains(const Piecewise_smooth_complex_3<K>& complex)
+{
+  int count = 1;
+  for (const auto& [a, b] : complex.sides) count = (std::max)({count, a, b});
+  return count;
+}
+
+/// Gives subdomains that nothing else names the name of their surface.
+template <class K>
+void name_by_surface(Piecewise_smooth_complex_3<K>& complex, const std::string& name)
+{
+  if (name.empty() || !complex.names.empty()) return;
+  complex.names.assign(static_cast<std::size_t>(number_of_subdomains(complex)), name);
+  make_names_differ(complex.names);
+}
 
 /// Puts surfaces together that each qualify by themselves.
 template <class K>
@@ -53,14 +72,14 @@ public:
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
       add(static_cast<int>(i));
       first_subdomain_.push_back(before + 1);
-      int count = 1;
-      for (const auto& [a, b] : surfaces_[i].sides) count = (std::max)({count, a, b});
-      before += count;
+      before += number_of_subdomains(surfaces_[i]);
     }
   }
 
-  Complex complex(const Feature_options& options)
+  /// \param order of two surfaces the one that is later here has what lies in both.
+  Complex complex(const Feature_options& options, std::vector<std::size_t> order)
   {
+    order_ = std::move(order);
     check_crossings();
     Triangle_surface_3<K> surface;
     std::vector<std::pair<int, int>> sides;
@@ -145,7 +164,7 @@ private:
     const Point &a = points_[facet.corners[0]], &b = points_[facet.corners[1]], &c = points_[facet.corners[2]];
     const Point center((a.x() + b.x() + c.x()) / 3, (a.y() + b.y() + c.y()) / 3, (a.z() + b.z() + c.z()) / 3);
     int behind = 0, before = 0;
-    for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    for (const std::size_t s : order_) {
       const auto owner = std::find_if(facet.owners.begin(), facet.owners.end(),
                                       [s](const auto& o) { return o.surface == static_cast<int>(s); });
       const auto number = [&](int subdomain) { return first_subdomain_[s] + subdomain - 1; };
@@ -172,6 +191,7 @@ private:
   const std::vector<Complex>& surfaces_;
   std::vector<Triangle_hierarchy_3<K>> trees_;
   std::vector<int> first_subdomain_; ///< of each surface
+  std::vector<std::size_t> order_;
   std::map<Point, std::size_t> number_of_point_;
   std::vector<Point> points_;
   std::map<std::array<std::size_t, 3>, std::size_t> facet_of_corners_;
@@ -179,15 +199,18 @@ private:
 };
 
 /// The complex of several surfaces, of which `complex_of(surface)` makes those of each.
+/// \param order see `Surface_merger_3::complex()`; empty: that of the surfaces.
 template <class Surface, class Complex_of>
-auto merge_surfaces(const std::vector<Surface>& surfaces, const Feature_options& options, const Complex_of& complex_of)
+auto merge_surfaces(const std::vector<Surface>& surfaces, const Feature_options& options, const Complex_of& complex_of,
+                    std::vector<std::size_t> order = {})
 {
   using Complex = decltype(complex_of(surfaces.front()));
   using K = typename Complex::Kernel;
   if (surfaces.empty()) throw Domain_error("there are no surfaces", {}, {});
   if (surfaces.size() == 1) return complex_of(surfaces.front());
   std::vector<Complex> complexes;
-  std::vector<std::string> changes;
+  std::vector<std::string> changes, names;
+  bool is_named = false;
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     const std::string name = "surface " + std::to_string(s) + ": ";
     try {
@@ -195,10 +218,20 @@ auto merge_surfaces(const std::vector<Surface>& surfaces, const Feature_options&
     } catch (const Domain_error& error) {
       throw Domain_error(name + error.what(), error.vertices(), error.elements());
     }
-    for (const std::string& change : complexes.back().changes) changes.push_back(name + change);
+    const Complex& complex = complexes.back();
+    for (const std::string& change : complex.changes) changes.push_back(name + change);
+    is_named = is_named || !complex.names.empty();
+    std::vector<std::string> of_surface = complex.names;
+    of_surface.resize(static_cast<std::size_t>(number_of_subdomains(complex)));
+    names.insert(names.end(), of_surface.begin(), of_surface.end());
   }
-  auto complex = Surface_merger_3<K>(complexes).complex(options);
+  while (order.size() < complexes.size()) order.push_back(order.size());
+  auto complex = Surface_merger_3<K>(complexes).complex(options, std::move(order));
   complex.changes = std::move(changes);
+  if (is_named) {
+    make_names_differ(names);
+    complex.names = std::move(names);
+  }
   for (const Complex& part : complexes) {
     complex.left_out.insert(complex.left_out.end(), part.left_out.begin(), part.left_out.end());
     complex.mending.add(part.mending);
@@ -219,8 +252,11 @@ template <class K>
 Piecewise_smooth_complex_3<K> piecewise_smooth_complex(const std::vector<Polygon_soup_3<K>>& surfaces,
                                                        const Feature_options& options = {})
 {
-  return internal::merge_surfaces(
-      surfaces, options, [&](const Polygon_soup_3<K>& surface) { return piecewise_smooth_complex(surface, options); });
+  return internal::merge_surfaces(surfaces, options, [&](const Polygon_soup_3<K>& surface) {
+    auto complex = piecewise_smooth_complex(surface, options);
+    internal::name_by_surface(complex, surface.name);
+    return complex;
+  });
 }
 
 } // namespace weft

@@ -37,19 +37,29 @@ struct Surface_side_3
   bool forward; ///< runs from low to high
 };
 
-/// All sides of all triangles, those of one edge next to each other; edges in the order of their vertices.
+/// All sides of all triangles, those of one edge next to each other; edges in the order of their vertices. O(n) for n
+/// triangles if vertices have few of them: sides are dealt to their lower vertices before they are sorted.
 inline std::vector<Surface_side_3> sorted_sides(const std::vector<std::array<std::size_t, 3>>& triangles)
 {
-  std::vector<Surface_side_3> sides;
-  sides.reserve(3 * triangles.size());
+  std::size_t vertices = 0;
+  for (const auto& triangle : triangles)
+    for (const std::size_t v : triangle) vertices = (std::max)(vertices, v + 1);
+  std::vector<std::size_t> start(vertices + 1, 0);
+  for (const auto& triangle : triangles)
+    for (std::size_t i = 0; i < 3; ++i) ++start[(std::min)(triangle[i], triangle[(i + 1) % 3]) + 1];
+  for (std::size_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
+  std::vector<Surface_side_3> sides(3 * triangles.size());
+  std::vector<std::size_t> end(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(vertices));
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t from = triangles[t][i], to = triangles[t][(i + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), t, i, from < to});
+      const std::size_t from = triangles[t][i], to = triangles[t][(i + 1) % 3], low = (std::min)(from, to);
+      sides[end[low]++] = {low, (std::max)(from, to), t, i, from < to};
     }
-  std::sort(sides.begin(), sides.end(), [](const Surface_side_3& a, const Surface_side_3& b) {
-    return std::tie(a.low, a.high, a.triangle, a.side) < std::tie(b.low, b.high, b.triangle, b.side);
-  });
+  const auto at = [&](std::size_t i) { return sides.begin() + static_cast<std::ptrdiff_t>(i); };
+  for (std::size_t v = 0; v < vertices; ++v)
+    std::sort(at(start[v]), at(start[v + 1]), [](const Surface_side_3& a, const Surface_side_3& b) {
+      return std::tie(a.high, a.triangle, a.side) < std::tie(b.high, b.triangle, b.side);
+    });
   return sides;
 }
 
