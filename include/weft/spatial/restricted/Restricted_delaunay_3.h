@@ -85,6 +85,8 @@ public:
   const Feature_incidence_3& incidence() const { return incidence_; }
   const Triangulation& triangulation() const { return *tr_; }
   const internal::Crease_tracer_3<Triangulation>& creases() const { return tracer_; }
+  /// How many threads may ask the oracle at once.
+  int threads() const { return classifier_.threads(); }
   const internal::Oracle_counts_3& counts() const { return classifier_.counts(); }
   /// Adds questions that were asked to prepare changes.
   void add_counts(const internal::Oracle_counts_3& counts) { classifier_.add_counts(counts); }
