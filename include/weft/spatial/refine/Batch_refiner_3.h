@@ -136,7 +136,7 @@ private:
   std::size_t choose_facets()
   {
     auto& facets = bad_.facets();
-    const std::size_t block = Proposals::block(facets.size());
+    constexpr std::size_t block = Proposals::block_size;
     for (std::size_t i = 0; i < facets.size(); ++i) {
       if (i % block == 0) look_ahead_from(i, (std::min)(block, facets.size() - i));
       Bad_facet& f = facets[i];
@@ -152,10 +152,12 @@ private:
     const std::vector<Bad_facet>& facets = bad_.found_facets();
     const auto facet = [&](std::size_t k) { return find_facet(mesh_, facets[first + k].id); };
     proposals_.look_ahead(
-        n,
+        n, batch_.number(),
         [&](std::size_t k) {
-          return !facets[first + k].is_stuck && facets[first + k].is_free && !batch_.is_full() &&
-                 facet(k)->cell->batch() != batch_.number() && facet(k)->squared_radius >= batch_.squared_floor();
+          const bool may_be = !facets[first + k].is_stuck && facets[first + k].is_free && !batch_.is_full() &&
+                              facet(k)->cell->batch() != batch_.number() &&
+                              facet(k)->squared_radius >= batch_.squared_floor();
+          return may_be ? facet(k)->cell : Cell_handle();
         },
         [&](std::size_t k, const auto& find, Zone& zone, std::size_t& candidates) {
           return find_best(*facet(k), find, zone, candidates);
@@ -172,17 +174,16 @@ private:
       if (!cells[i].is_stuck) pool_[n++] = static_cast<int>(i);
     pool_.resize(n);
     container_.clear();
-    const std::size_t block = Proposals::block(n);
     std::size_t in_vain = 0;
     for (bool goes_on = true; goes_on;) {
       const std::mt19937 before = random_;
-      pick_cells(block);
+      pick_cells(Proposals::block_size);
       if (picked_.empty()) break;
       proposals_.look_ahead(
-          picked_.size(),
+          picked_.size(), batch_.number(),
           [&](std::size_t k) {
             const Cell_handle c = cells[picked_[k].cell].cell;
-            return !is_near_claimed(c) && squared_radius(c) >= batch_.squared_floor();
+            return !is_near_claimed(c) && squared_radius(c) >= batch_.squared_floor() ? c : Cell_handle();
           },
           [&](std::size_t k, const auto& find, Zone& zone, std::size_t& candidates) {
             ++candidates;

@@ -77,7 +77,7 @@ public:
       if (k == filling().size()) return false;
       start = filling()[k];
     }
-    const Zone_result result = find_conflict_zone_aside(mesh_->triangulation(), p, start, zone, marks_,
+    const Zone_result result = find_conflict_zone_aside(mesh_->triangulation(), p, start, no_batch, zone, marks_,
                                                         [this](Cell_handle c, int i) { return step(c, i); });
     if (keeps_seen_) {
       see(start);
