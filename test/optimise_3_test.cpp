@@ -677,7 +677,7 @@ TEST_CASE("the whole run is the same to the last bit, also for several threads")
           weft::make_mesh_3(oracle, criteria_of(c.size, c.approximation), options).restricted);
     };
     const Mesh once = run(1);
-    for (const int threads : {1, 2, 4}) CHECK(same(once, run(threads)));
+    for (const int threads : {1, 2, 3, 4, 8}) CHECK(same(once, run(threads)));
   }
 }
 

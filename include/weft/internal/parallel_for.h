@@ -14,17 +14,25 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <map>
 #endif
 
 namespace weft::internal {
 
 #ifdef WEFT_LINKED_WITH_TBB
+/// Where loops of this thread run on so many threads: making an arena takes longer than many a loop.
+WEFT_NOINLINE inline tbb::task_arena& arena(int threads)
+{
+  thread_local std::map<int, tbb::task_arena> arenas;
+  return arenas.try_emplace(threads, threads).first->second;
+}
+
 /// Calls `run(body, first, last)` for parts of [0, n) of about `grain`. Not a template: oneTBB takes long to compile.
 WEFT_NOINLINE inline void run_parts(std::size_t n, int threads, std::size_t grain,
                                     void (*run)(const void*, std::size_t, std::size_t), const void* body)
 {
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
+  arena(threads).execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
                       [&](const auto& range) { run(body, range.begin(), range.end()); });
   });

@@ -74,7 +74,8 @@ inline std::optional<std::size_t> component_of_colour(const std::string& propert
   return {};
 }
 
-/// The name of a colour, as in "#ff8000". \param unit what a component is at most.
+/// The name of a colour, as in "#ff8000".
+/// \param unit what a component is at most.
 inline std::string name_of_colour(const std::array<double, 3>& components, double unit)
 {
   char text[8];

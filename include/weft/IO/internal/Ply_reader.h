@@ -75,7 +75,8 @@ struct Ply_element
 class Ply_reader
 {
 public:
-  /// Takes the whole file into memory and reads its header. \throws File_error.
+  /// Takes the whole file into memory and reads its header.
+  /// \throws File_error.
   explicit Ply_reader(const std::string& filename) : filename_(filename)
   {
     std::ifstream in(filename, std::ios::binary);

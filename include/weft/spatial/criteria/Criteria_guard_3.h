@@ -128,12 +128,24 @@ public:
           if (f.cell != Cell_handle() && offends(f, era)) some.push_back(element_of_facet(f));
         },
         collect);
-    for (const Cell_handle c : mesh_.new_cells())
-      if (c->subdomain() != 0 && offends(element_of_cell(c), grader_.cell(c))) bad.push_back(element_of_cell(c));
+    const std::vector<Cell_handle>& cells = mesh_.new_cells();
+    for_facet_blocks<Restricted>(
+        cells.size(), threads_, std::vector<Element_3>(),
+        [&](std::size_t k, std::uint64_t, std::vector<Element_3>& some) {
+          const Cell_handle c = cells[k];
+          if (c->subdomain() != 0 && offends(element_of_cell(c), grader_.cell(c))) some.push_back(element_of_cell(c));
+        },
+        collect);
     for (const Crease_edge& e : mesh_.creases().edges())
       if (offends(element_of_edge(e), grader_.crease_edge(e))) bad.push_back(element_of_edge(e));
-    for (const int id : boundary_vertices(mesh_.new_cells()))
-      if (offends({id, -1, -1, -1}, grader_.vertex(vertex(id)))) bad.push_back({id, -1, -1, -1});
+    const std::vector<int> vertices = boundary_vertices(cells);
+    for_facet_blocks<Restricted>(
+        vertices.size(), threads_, std::vector<Element_3>(),
+        [&](std::size_t k, std::uint64_t, std::vector<Element_3>& some) {
+          const int id = vertices[k];
+          if (offends({id, -1, -1, -1}, grader_.vertex(vertex(id)))) some.push_back({id, -1, -1, -1});
+        },
+        collect);
     return bad;
   }
 

@@ -6,12 +6,16 @@
 #ifndef WEFT_SPATIAL_CRITERIA_VISIT_BAD_ELEMENTS_3_H
 #define WEFT_SPATIAL_CRITERIA_VISIT_BAD_ELEMENTS_3_H
 
+#include <weft/internal/parallel_for.h>
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/restricted/topological_disk_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
+
+#include <cstddef>
+#include <vector>
 
 namespace weft::internal {
 
@@ -37,17 +41,30 @@ void visit_bad_elements(const Restricted& mesh, const Criteria_3<typename Restri
     const Badness_3 badness = measure.crease_edge(e);
     if (badness.is_bad()) on_edge(e, badness, Ball{e.steiner, e.squared_radius});
   }
-  for (const auto& f : mesh.facets()) {
-    if (f.cell == typename Restricted::Cell_handle()) continue;
-    const Badness_3 badness = measure.facet(f);
-    if (badness.is_bad()) on_facet(f, badness, Ball{f.steiner, f.squared_radius});
-  }
-  for (const auto c : mesh.triangulation().finite_cell_handles()) {
-    if (c->subdomain() == 0) continue;
-    const Badness_3 badness = measure.cell(c);
-    if (!badness.is_bad()) continue;
-    const auto& center = c->circumcenter();
-    on_cell(c, badness, Ball{center, CGAL::to_double(CGAL::squared_distance(center, c->vertex(0)->point()))});
+  const int threads = criteria.has_functions() ? 1 : mesh.threads();
+  std::vector<Badness_3> badness;
+  const auto& facets = mesh.facets();
+  badness.assign(facets.size(), Badness_3());
+  const auto exists = [&](std::size_t k) { return facets[k].cell != typename Restricted::Cell_handle(); };
+  parallel_for(
+      facets.size(), threads,
+      [&](std::size_t k) {
+        if (exists(k)) badness[k] = measure.facet(facets[k]);
+      },
+      64);
+  for (std::size_t k = 0; k < facets.size(); ++k)
+    if (exists(k) && badness[k].is_bad())
+      on_facet(facets[k], badness[k], Ball{facets[k].steiner, facets[k].squared_radius});
+  std::vector<typename Restricted::Cell_handle> cells;
+  for (const auto c : mesh.triangulation().finite_cell_handles())
+    if (c->subdomain() != 0) cells.push_back(c);
+  badness.assign(cells.size(), Badness_3());
+  parallel_for(cells.size(), threads, [&](std::size_t k) { badness[k] = measure.cell(cells[k]); });
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (!badness[k].is_bad()) continue;
+    const auto& center = cells[k]->circumcenter();
+    on_cell(cells[k], badness[k],
+            Ball{center, CGAL::to_double(CGAL::squared_distance(center, cells[k]->vertex(0)->point()))});
   }
   for (const auto v : mesh.vertices())
     if (v->location().dimension <= 2 && !has_topological_disk(mesh, v)) on_vertex(v);

@@ -13,6 +13,7 @@
 
 #include <weft/errors.h>
 #include <weft/internal/boxes/coordinates_3.h>
+#include <weft/internal/parallel_for.h>
 #include <weft/spatial/mesh/circumcenter_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
@@ -23,6 +24,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -211,13 +213,27 @@ inline std::size_t degree_bin(double degrees)
 }
 
 template <class K>
-void measure_cells(const Tetrahedral_mesh_3<K>& mesh, Quality_3& quality)
+void measure_cells(const Tetrahedral_mesh_3<K>& mesh, int threads, Quality_3& quality)
 {
+  struct Measured
+  {
+    Scaled_simplex_3<4> cell;
+    Cell_measures_3 measures;
+  };
+  constexpr std::size_t block_size = 8192; // cells that are measured together, to be added up one after the other
+  std::vector<std::optional<Measured>> block(threads > 1 ? (std::min)(block_size, mesh.cells.size()) : 1);
   double smallest_sum = 0, edge_ratio_sum = 0, ratio_sum = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto& vertices = mesh.cells[c];
-    const Scaled_simplex_3<4> cell(mesh.points, vertices);
-    const Cell_measures_3 measures(cell);
+    if (c % block.size() == 0)
+      parallel_for(
+          (std::min)(block.size(), mesh.cells.size() - c), threads,
+          [&](std::size_t k) {
+            const Scaled_simplex_3<4> cell(mesh.points, mesh.cells[c + k]);
+            block[k].emplace(Measured{cell, Cell_measures_3(cell)});
+          },
+          64);
+    const auto& [cell, measures] = *block[c % block.size()];
     double smallest = 180;
     for (std::size_t k = 0; k < 6; ++k) {
       const double angle = measures.dihedral[k];
@@ -262,14 +278,15 @@ void measure_facets(const Tetrahedral_mesh_3<K>& mesh, Quality_3& quality)
 } // namespace internal
 
 /// Measures the shape of all cells and boundary facets. Linear time.
+/// \param threads to use; the result is the same for any number.
 template <class K>
-Quality_3 measure_quality_3(const Tetrahedral_mesh_3<K>& mesh)
+Quality_3 measure_quality_3(const Tetrahedral_mesh_3<K>& mesh, int threads = 1)
 {
   Quality_3 quality;
   quality.vertices = mesh.points.size();
   quality.cells = mesh.cells.size();
   quality.facets = mesh.facets.size();
-  internal::measure_cells(mesh, quality);
+  internal::measure_cells(mesh, threads, quality);
   internal::measure_facets(mesh, quality);
   return quality;
 }

@@ -13,6 +13,7 @@
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
+#include <weft/spatial/restricted/Mesh_without_vertex_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -77,6 +78,7 @@ public:
 
   /// No move may make an angle smaller than the one with this cosine.
   void set_floor(double cosine) { floor_ = cosine; }
+  double floor() const { return floor_; }
 
   /// \param location of the points that are judged next.
   void set_location(const Vertex_location_3& location) { location_ = location; }
@@ -84,6 +86,7 @@ public:
   /// \param filling the cells that fill the place of a vertex that was taken away; none for an insertion.
   void set_filling(const std::vector<Cell_handle>& filling)
   {
+    without_ = nullptr;
     filling_.clear();
     for (const Cell_handle c : filling) {
       Filler f{c, -1, -1, false, true};
@@ -96,9 +99,18 @@ public:
     }
   }
 
+  /// The same for a vertex that is left out in thought only: zones are those that points would have then.
+  /// \param without has to stay as it is until another filling is set.
+  void set_filling(Mesh_without_vertex_3<Restricted>& without)
+  {
+    set_filling(without.filling());
+    without_ = &without;
+  }
+
   /// Finds the zone of a point; `near` is where to look from.
   bool find_zone(const Point& p, Cell_handle near)
   {
+    if (without_) return without_->find_zone(p, zone_);
     return find_conflict_zone(mesh_->triangulation(), p, near, zone_) == Zone_result::found;
   }
   const Zone& zone() const { return zone_; }
@@ -107,8 +119,11 @@ public:
   /// `no_good` if it isn't less than `limit` or, where that is more, the worst of the cells unmade.
   double judge(double limit)
   {
-    ++stamp_;
-    for (const Cell_handle c : zone_.cells) c->set_id(-stamp_);
+    if (!without_) {
+      ++stamp_;
+      for (const Cell_handle c : zone_.cells) c->set_id(-stamp_);
+    }
+    const auto is_in_zone = [this](Cell_handle c) { return without_ ? without_->is_in_zone(c) : c->id() == -stamp_; };
     bool limit_is_final = false;
     double worst = -1;
     const auto exceeds = [&](const Dihedral_cosines_3& x) {
@@ -121,7 +136,7 @@ public:
       return worst >= limit;
     };
     for (Filler& f : filling_)
-      if (f.cell->id() != -stamp_ && f.measure > worst && is_inside(f) && exceeds(cosines(f.cell))) return no_good;
+      if (!is_in_zone(f.cell) && f.measure > worst && is_inside(f) && exceeds(cosines(f.cell))) return no_good;
     for (const auto& facet : zone_.hull) {
       std::array<Point, 4> p;
       if (!corners(facet, p)) continue;
@@ -257,6 +272,7 @@ private:
   double wanted_cosine_ = cosine_of_degrees(least_part * largest_forcing_angle);
   Vertex_location_3 location_{3, 0};
   std::vector<Filler> filling_;
+  Mesh_without_vertex_3<Restricted>* without_ = nullptr; ///< null where the vertex is out
   Zone zone_;
   double floor_ = 1;
   int stamp_ = 1;

@@ -6,10 +6,9 @@
 #ifndef WEFT_SPATIAL_OPTIMISE_PLACE_SEARCH_3_H
 #define WEFT_SPATIAL_OPTIMISE_PLACE_SEARCH_3_H
 
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
-#include <weft/spatial/optimise/Success_rates.h>
-#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
 #include <CGAL/number_utils.h>
@@ -51,30 +50,52 @@ public:
     double enough = 0;            ///< what ends the search
     double most = 0;              ///< what it must not make, whatever it unmakes
     Vector by_radius, by_volume;  ///< gradients, summed over slivers
+    bool is_guided = false;       ///< whether those play a part
     Cell_handle near;             ///< a cell near it
   };
 
+  /// Kinds of places for a vertex: steps along the gradients of its slivers, in parts of its shortest edge, and random
+  /// ones.
+  struct Step
+  {
+    bool along_radius;
+    double length;
+  };
+  static constexpr std::array<Step, 6> steps{
+      {{true, 0.05}, {true, 0.1}, {true, 0.2}, {false, 0.1}, {false, 0.2}, {true, 0.3}}};
+  static constexpr std::size_t by_chance = steps.size(), kinds = by_chance + 1;
+
+  /// What a search took.
+  struct Costs
+  {
+    std::array<std::size_t, kinds> places{}; ///< judged for a move, by kind
+    std::size_t trials = 0, refused_cells = 0;
+  };
+
   /// Everything has to live as long as this object.
-  Place_search_3(const Restricted& mesh, Judge& judge, const Perturb_options_3& options, Perturb_report_3& report)
-      : mesh_(mesh), judge_(judge), options_(options), report_(report), random_(options.seed)
+  Place_search_3(const Restricted& mesh, Judge& judge, const Perturb_options_3& options)
+      : mesh_(mesh), judge_(judge), options_(options), random_(options.seed)
   {}
 
-  /// The best places for a vertex that has been taken out, the best first.
-  ///
-  /// As in Alg. 7 the gradients have their turn before chance, but only those steps that have mended more for their
-  /// cost than chance has, the best first: late in a run gradients rarely help. On creases there are but two ways to
-  /// go: directions there only take time.
-  const std::vector<Place>& places_for_move(const Target& target, const Point& origin, int trials, bool at_random)
+  /// Begins the random numbers anew.
+  void seed(unsigned number) { random_.seed(number); }
+
+  /// Of the last search.
+  const Costs& costs() const { return costs_; }
+
+  /// The best places for a vertex that is out, the best first. As in Alg. 7 the gradients have their turn before
+  /// chance.
+  /// \param steps kinds of steps along gradients to try, if it is guided.
+  const std::vector<Place>& places_for_move(const Target& target, const Point& origin, int trials,
+                                            const std::vector<std::size_t>& steps)
   {
-    target_ = target;
-    places_.clear();
+    begin(target);
     is_move_ = true;
     bool done = false;
-    is_guided_ = !at_random && target_.location.dimension > 1 && options_.directions == Perturb_directions_3::combined;
-    if (is_guided_) {
+    if (target_.is_guided) {
       target_.by_radius = possible_direction(origin, target_.by_radius);
       target_.by_volume = possible_direction(origin, target_.by_volume);
-      for (const std::size_t kind : rates_.better_than(by_chance)) {
+      for (const std::size_t kind : steps) {
         done = try_along(origin, kind);
         if (done) break;
       }
@@ -87,44 +108,22 @@ public:
   /// Places for a new vertex, at random around a center; gradients have no part in that.
   const std::vector<Place>& places_for_insertion(const Target& target, const Point& center, int trials)
   {
-    target_ = target;
-    places_.clear();
-    is_move_ = is_guided_ = false;
+    begin(target);
+    target_.is_guided = is_move_ = false;
     search(center, 1, trials);
     keep_best_places();
     return places_;
-  }
-
-  /// A place that was found is tried for good.
-  void note_tried(const Place& place) { rates_.spend(place.kind, cost_of_putting_back); }
-
-  /// And the vertex stays there.
-  void note_success(const Place& place)
-  {
-    rates_.succeed(place.kind);
-    ++(report_.*counter(place.kind));
   }
 
   /// A random number below n.
   std::size_t draw(std::size_t n) { return random_() % n; }
 
 private:
-  /// Kinds of places for a vertex: steps along the gradients of its slivers, in parts of its shortest edge, and random
-  /// ones.
-  struct Step
+  void begin(const Target& target)
   {
-    bool along_radius;
-    double length;
-  };
-  static constexpr std::array<Step, 6> steps{
-      {{true, 0.05}, {true, 0.1}, {true, 0.2}, {false, 0.1}, {false, 0.2}, {true, 0.3}}};
-  static constexpr std::size_t by_chance = steps.size();
-
-  static std::size_t Perturb_report_3::*counter(std::size_t kind)
-  {
-    return kind == by_chance          ? &Perturb_report_3::by_chance
-           : steps[kind].along_radius ? &Perturb_report_3::by_radius
-                                      : &Perturb_report_3::by_volume;
+    target_ = target;
+    places_.clear();
+    costs_ = Costs();
   }
 
   /// The unit vector of a direction, or of what a patch or crease leaves of it; zero if that is nothing. Most of a step
@@ -168,7 +167,7 @@ private:
       const bool near_best = k % 2 == 1 && best < target_.limit;
       const double x = random(), y = random(), z = random(); // in this order, whatever the compiler
       Vector v(x, y, z);
-      if (is_guided_ && k < guided_trials && !near_best && v * target_.by_volume < 0) v = -v;
+      if (target_.is_guided && k < guided_trials && !near_best && v * target_.by_volume < 0) v = -v;
       const double length = std::sqrt(CGAL::to_double(v.squared_length()));
       if (!(length > 0)) continue;
       const double step = (near_best ? radius : reach) * (0.5 + 0.5 * random()) * target_.reach / length;
@@ -188,8 +187,8 @@ private:
   /// Judges a place, projected to where the vertex may lie; remembers it if it is good enough.
   double try_at(Point p, std::size_t kind)
   {
-    ++report_.trials;
-    if (is_move_) rates_.spend(kind, 1);
+    ++costs_.trials;
+    if (is_move_) ++costs_.places[kind];
     const std::optional<Point> projected = project_on_location(mesh_.oracle(), p, target_.location);
     if (!projected) return Judge::no_good;
     p = *projected;
@@ -197,7 +196,7 @@ private:
     if (!judge_.find_zone(p, target_.near)) return Judge::no_good;
     const double measure = judge_.judge(target_.limit);
     if (measure > target_.most || measure >= Judge::no_good) return Judge::no_good;
-    if (!judge_.would_fit()) return ++report_.refused_cells, Judge::no_good;
+    if (!judge_.would_fit()) return ++costs_.refused_cells, Judge::no_good;
     places_.push_back({p, measure, kind});
     return measure;
   }
@@ -211,19 +210,16 @@ private:
 
   /// Random trials that directions play a part in; more are worse.
   static constexpr int guided_trials = 6;
-  static constexpr std::size_t most_places = 3;      ///< of the best, how many are tried for good
-  static constexpr double cost_of_putting_back = 20; ///< in trials, with the guard's questions
+  static constexpr std::size_t most_places = 3; ///< of the best, how many are tried for good
 
   const Restricted& mesh_;
   Judge& judge_;
   const Perturb_options_3& options_;
-  Perturb_report_3& report_;
   std::mt19937 random_;
-  Success_rates rates_{by_chance + 1};
-  Target target_;          ///< its directions, once guided, are unit vectors or zero
-  bool is_move_ = true;    ///< or an insertion
-  bool is_guided_ = false; ///< whether directions play a part in a move
+  Target target_;       ///< its directions, once guided, are unit vectors or zero
+  bool is_move_ = true; ///< or an insertion
   std::vector<Place> places_;
+  Costs costs_;
 };
 
 } // namespace weft::internal

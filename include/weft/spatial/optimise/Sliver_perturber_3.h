@@ -117,12 +117,9 @@ private:
     ++report_.passes;
     std::vector<Candidate> candidates = list_candidates();
     std::sort(candidates.begin(), candidates.end());
-    std::size_t moved = 0;
-    for (const Candidate& candidate : candidates) {
-      if (mender_.is_late()) break;
-      moved += mender_.perturber().move(candidate.id, Mender::Purpose::mend, options_.random_trials);
-    }
-    return moved;
+    std::vector<int> ids;
+    for (const Candidate& candidate : candidates) ids.push_back(candidate.id);
+    return mender_.perturber().move_all(std::move(ids), options_.random_trials, [this] { return mender_.is_late(); });
   }
 
   /// Where criteria can't hold, cells that violate them are tried once: no bound makes them easier to mend, and there

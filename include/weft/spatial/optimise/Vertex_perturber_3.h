@@ -9,10 +9,13 @@
 #ifndef WEFT_SPATIAL_OPTIMISE_VERTEX_PERTURBER_3_H
 #define WEFT_SPATIAL_OPTIMISE_VERTEX_PERTURBER_3_H
 
+#include <weft/internal/parallel_for.h>
+#include <weft/spatial/optimise/Move_search_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
 #include <weft/spatial/optimise/Place_search_3.h>
-#include <weft/spatial/optimise/sliver_gradients_3.h>
+#include <weft/spatial/optimise/Success_rates.h>
+#include <weft/spatial/restricted/Handle_marks.h>
 #include <weft/spatial/restricted/Vertex_transaction_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -22,8 +25,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace weft::internal {
@@ -35,26 +40,28 @@ class Vertex_perturber_3
 public:
   using Kernel = typename Restricted::Kernel;
   using Point = typename Restricted::Point;
-  using Vector = typename Kernel::Vector_3;
   using Cell_handle = typename Restricted::Cell_handle;
   using Vertex_handle = typename Restricted::Vertex_handle;
   using Judge = Perturbation_judge_3<Restricted>;
   using Search = Place_search_3<Restricted>;
   using Place = typename Search::Place;
+  using Moves = Move_search_3<Restricted>;
+  using Task = typename Moves::Task;
+  using Found = typename Moves::Found;
   using Transaction = Vertex_transaction_3<Restricted>;
 
-  /// When a vertex is to be moved.
-  enum class Purpose
-  {
-    mend,   ///< a cell at it is below the bound
-    better, ///< always, if that betters its star
-    shake,  ///< always, if nothing it makes is below the bound: makes room for others
-    kick    ///< always, if nothing it makes is below the bound for kicks
-  };
+  using Purpose = Move_purpose_3;
 
   Vertex_perturber_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Perturb_options_3& options,
                      Perturb_report_3& report)
-      : mesh_(mesh), report_(report), judge_(mesh, guard), search_(mesh, judge_, options, report)
+      : mesh_(mesh),
+        guard_(guard),
+        options_(options),
+        report_(report),
+        judge_(mesh, guard),
+        search_(mesh, judge_, options),
+        moves_(mesh, guard, options),
+        next_seed_(options.seed)
   {}
 
   Judge& judge() { return judge_; }
@@ -92,36 +99,35 @@ public:
   /// Moves a vertex; whether it was moved. Feature vertices stay.
   bool move(int id, Purpose purpose, int trials)
   {
-    const Vertex_handle v = vertex(id);
-    target_.location = v->location();
-    if (mesh_.is_fixed(v)) return false;
-    load_star(v);
-    if (purpose == Purpose::mend && target_.limit <= bound_) return false; // mended meanwhile
-    if (purpose == Purpose::mend || purpose == Purpose::better) target_.limit -= Judge::least_gain;
-    if (purpose == Purpose::shake) target_.limit = (std::max)(target_.limit, bound_);
-    if (purpose == Purpose::kick) target_.limit = (std::max)(target_.limit, kick_bound_);
-    target_.enough = purpose == Purpose::kick ? kick_bound_ : bound_;
-    target_.most = Judge::no_good;
-    ++report_.tried_vertices;
-    Transaction change(mesh_, v);
-    judge_.set_location(target_.location);
-    take_filling(change);
-    const bool at_random = purpose == Purpose::shake || purpose == Purpose::kick;
-    for (const Place& place : search_.places_for_move(target_, change.origin(), trials, at_random)) {
-      if (!judge_.find_zone(place.point, target_.near)) continue;
-      change.place(judge_.zone());
-      search_.note_tried(place);
-      if (judge_.is_acceptable(report_)) {
-        search_.note_success(place);
-        log_.push_back({Change::move, id, change.origin(), target_.location});
-        change.commit();
-        return true;
+    const Task task = task_for(id, purpose, trials, std::nullopt);
+    moves_.find(task, false, found_);
+    return carry_out(task, found_);
+  }
+
+  /// Moves vertices for `Purpose::mend` until `is_late()`; how many were moved. They are worked on in blocks of vertices
+  /// without common neighbours: those left over have their turn later. Several threads find places for those of a
+  /// block. What one of them finds is what it would find when it is the turn of the vertex, unless something that it
+  /// has looked at has changed; then it looks again.
+  template <class Is_late>
+  std::size_t move_all(std::vector<int> ids, int trials, const Is_late& is_late)
+  {
+    std::size_t moved = 0;
+    std::vector<int> later;
+    while (!ids.empty()) {
+      later.clear();
+      choose_block(ids, trials, later);
+      const bool looks_ahead = guard_.threads() > 1;
+      const int version = mesh_.version();
+      if (looks_ahead) look_ahead();
+      for (std::size_t k = 0; k < tasks_.size(); ++k) {
+        if (is_late()) return moved;
+        const bool is_known = looks_ahead && is_unchanged(early_[k].seen, version);
+        if (!is_known) moves_.find(tasks_[k], false, found_);
+        moved += carry_out(tasks_[k], is_known ? early_[k] : found_);
       }
-      change.take_out_again();
-      take_filling(change);
+      ids.swap(later);
     }
-    change.roll_back();
-    return false;
+    return moved;
   }
 
   /// Inserts a vertex near a cell, inside, on a patch or on a crease; whether it did.
@@ -142,7 +148,9 @@ public:
       target_.location = location;
       judge_.set_location(location);
       const int share = trials / static_cast<int>(locations.size());
-      for (const Place& place : search_.places_for_insertion(target_, center, share)) {
+      const std::vector<Place>& places = search_.places_for_insertion(target_, center, share);
+      add_costs(search_.costs());
+      for (const Place& place : places) {
         if (!judge_.find_zone(place.point, target_.near)) continue;
         Transaction change(mesh_, judge_.zone(), target_.location);
         if (judge_.is_acceptable(report_)) {
@@ -165,10 +173,10 @@ public:
     const Vertex_handle v = vertex(id);
     target_.location = v->location();
     if (mesh_.is_fixed(v)) return false;
-    load_star(v);
+    const double worst = worst_around(v);
     Transaction change(mesh_, v);
     take_filling(change);
-    const bool fills_well = judge_.judge_filling((std::max)(target_.limit, most)) != Judge::no_good;
+    const bool fills_well = judge_.judge_filling((std::max)(worst, most)) != Judge::no_good;
     if (fills_well) change.leave_out();
     if (fills_well && judge_.is_acceptable(report_)) {
       judge_.forget(id); // the number of another vertex now
@@ -204,32 +212,114 @@ private:
     target_.near = change.filling().front();
   }
 
-  /// What the star of a vertex is like: its worst cell, the directions that its slivers suggest.
-  void load_star(Vertex_handle v)
+  double worst_around(Vertex_handle v) const
   {
-    cells_.clear();
-    mesh_.triangulation().incident_cells(v, std::back_inserter(cells_));
-    target_.limit = -1;
-    target_.by_radius = target_.by_volume = Vector(0, 0, 0);
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const Cell_handle c : cells_) {
-      if (c->subdomain() == 0) continue;
-      for (int i = 0; i < 4; ++i)
-        if (c->vertex(i) != v)
-          shortest = (std::min)(shortest, CGAL::to_double(CGAL::squared_distance(v->point(), c->vertex(i)->point())));
-      const double x = judge_.measure(c);
-      target_.limit = (std::max)(target_.limit, x);
-      if (x > bound_) add_gradients(c, c->index(v));
-    }
-    target_.reach = std::sqrt(shortest);
+    std::vector<Cell_handle> star;
+    mesh_.triangulation().incident_cells(v, std::back_inserter(star));
+    double worst = -1;
+    for (const Cell_handle c : star)
+      if (c->subdomain() != 0) worst = (std::max)(worst, judge_.measure(c));
+    return worst;
   }
 
-  void add_gradients(Cell_handle c, int i)
+  // ---- moves
+
+  /// Only those steps along gradients are tried that have mended more for their cost than chance has: late in a run
+  /// gradients rarely help.
+  Task task_for(int id, Purpose purpose, int trials, std::optional<unsigned> seed)
   {
-    const Point &v = c->vertex(i)->point(), &a = c->vertex((i + 1) % 4)->point(), &b = c->vertex((i + 2) % 4)->point(),
-                &d = c->vertex((i + 3) % 4)->point();
-    target_.by_radius = target_.by_radius + gradient_of_squared_radius(v, a, b, d, c->circumcenter());
-    target_.by_volume = target_.by_volume - gradient_of_volume(v, a, b, d);
+    Task task{id, purpose, trials, bound_, kick_bound_, judge_.floor(), {}, seed};
+    if (Moves::is_guided(vertex(id), purpose, options_)) task.steps = rates_.better_than(Search::by_chance);
+    return task;
+  }
+
+  /// The first vertices that are far enough from each other.
+  /// \param later gets all others, in their order.
+  void choose_block(const std::vector<int>& ids, int trials, std::vector<int>& later)
+  {
+    tasks_.clear();
+    taken_.clear();
+    std::size_t k = 0;
+    for (; k < ids.size() && k < most_looked_at && tasks_.size() < block_size; ++k)
+      if (take(vertex(ids[k])))
+        tasks_.push_back(task_for(ids[k], Purpose::mend, trials, ++next_seed_));
+      else
+        later.push_back(ids[k]);
+    later.insert(later.end(), ids.begin() + static_cast<std::ptrdiff_t>(k), ids.end());
+  }
+
+  /// Takes a vertex and its neighbours unless one of them is taken already.
+  bool take(Vertex_handle v)
+  {
+    neighbours_.assign(1, v);
+    mesh_.triangulation().finite_adjacent_vertices(v, std::back_inserter(neighbours_));
+    neighbours_.erase(std::remove_if(neighbours_.begin(), neighbours_.end(), [](Vertex_handle w) { return w->id() < 0; }),
+                      neighbours_.end());
+    for (const Vertex_handle w : neighbours_)
+      if (taken_.get(w) != Handle_marks::none) return false;
+    for (const Vertex_handle w : neighbours_) taken_.add(w, 1);
+    return true;
+  }
+
+  void look_ahead()
+  {
+    early_.resize(block_size);
+    while (searches_.size() < parts) searches_.emplace_back(mesh_, guard_, options_);
+    parallel_for(
+        parts, guard_.threads(),
+        [this](std::size_t p) {
+          for (std::size_t k = p; k < tasks_.size(); k += parts) searches_[p].find(tasks_[k], true, early_[k]);
+        },
+        1);
+  }
+
+  bool is_unchanged(const std::vector<int>& ids, int version) const
+  {
+    return std::all_of(ids.begin(), ids.end(), [&](int id) { return mesh_.changed_at(vertex(id)) < version; });
+  }
+
+  /// Moves a vertex to the first of the places found that is possible.
+  bool carry_out(const Task& task, Found& found)
+  {
+    if (!found.is_wanted) return false;
+    ++report_.tried_vertices;
+    add_costs(found.costs);
+    if (found.places.empty() && !found.is_crowded) return false;
+    const Vertex_handle v = vertex(task.id);
+    target_.location = v->location();
+    if (found.is_crowded) moves_.find(task, false, found);
+    Transaction change(mesh_, v);
+    if (found.is_crowded) {
+      moves_.find_in(task, change.origin(), change.filling(), found);
+      add_costs(found.costs);
+    }
+    take_filling(change);
+    for (const Place& place : found.places) {
+      if (!judge_.find_zone(place.point, target_.near)) continue;
+      change.place(judge_.zone());
+      rates_.spend(place.kind, cost_of_putting_back);
+      if (judge_.is_acceptable(report_)) {
+        rates_.succeed(place.kind);
+        ++(place.kind == Search::by_chance            ? report_.by_chance
+           : Search::steps[place.kind].along_radius ? report_.by_radius
+                                                      : report_.by_volume);
+        log_.push_back({Change::move, task.id, change.origin(), target_.location});
+        change.commit();
+        return true;
+      }
+      change.take_out_again();
+      take_filling(change);
+    }
+    change.roll_back();
+    return false;
+  }
+
+  void add_costs(const typename Search::Costs& costs)
+  {
+    report_.trials += costs.trials;
+    report_.refused_cells += costs.refused_cells;
+    for (std::size_t kind = 0; kind < Search::kinds; ++kind)
+      if (costs.places[kind] > 0) rates_.spend(kind, static_cast<double>(costs.places[kind]));
   }
 
   static double shortest_squared_edge(Cell_handle c)
@@ -259,15 +349,29 @@ private:
     return all;
   }
 
+  static constexpr std::size_t block_size = 64, parts = 16; ///< moves of a block, and how many threads may share them
+  static constexpr std::size_t most_looked_at = 512;        ///< vertices, to choose a block
+  static constexpr double cost_of_putting_back = 20;        ///< in trials, with the guard's questions
+
   Restricted& mesh_;
+  Criteria_guard_3<Restricted>& guard_;
+  const Perturb_options_3& options_;
   Perturb_report_3& report_;
   Judge judge_;
-  Search search_;
+  Search search_; ///< for insertions
+  Moves moves_;
+  Success_rates rates_{Search::kinds};
+  unsigned next_seed_;
   double bound_ = 1, kick_bound_ = 1;
   std::vector<Change> log_;
 
-  typename Search::Target target_; ///< what the vertex that is moved or inserted is to attain
-  std::vector<Cell_handle> cells_; ///< its star
+  typename Search::Target target_; ///< what the vertex that is inserted is to attain
+  Found found_;
+  std::vector<Task> tasks_;    ///< of a block
+  std::vector<Found> early_;   ///< what was found for them before the first was carried out
+  std::deque<Moves> searches_; ///< for that
+  Handle_marks taken_;         ///< vertices at those of a block
+  std::vector<Vertex_handle> neighbours_;
 };
 
 } // namespace weft::internal

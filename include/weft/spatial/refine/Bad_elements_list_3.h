@@ -6,6 +6,7 @@
 #ifndef WEFT_SPATIAL_REFINE_BAD_ELEMENTS_LIST_3_H
 #define WEFT_SPATIAL_REFINE_BAD_ELEMENTS_LIST_3_H
 
+#include <weft/internal/parallel_for.h>
 #include <weft/spatial/criteria/Approximation_multiples.h>
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/criteria/facet_turn_3.h>
@@ -157,6 +158,10 @@ public:
     return cells_;
   }
 
+  /// What `facets()` and `cells()` returned last.
+  const std::vector<Bad_facet>& found_facets() const { return facets_; }
+  const std::vector<Bad_cell>& found_cells() const { return cells_; }
+
   /// Makes facets count as changed that are bad or haven't been looked at closely: see `Batch_refiner_3::settle()`.
   void set_changed()
   {
@@ -172,14 +177,26 @@ private:
   void look_again()
   {
     if constexpr (!Restricted::Oracle::labels_first) {
-      for (const Facet_id_3& id : unseen_)
-        if (const Restricted_facet* f = find_facet(mesh_, id)) {
-          const bool is_turned = measure_.factor() <= 1 && cosine_to_surface(mesh_, *f) < least_cosine_to_surface;
-          has_found_turned_ = has_found_turned_ || is_turned;
-          if (is_turned || is_far(*f))
-            facets_.push_back({id, Measure::just_bad, !is_turned,
-                               !is_turned && must_be_refined(bad_approximation, f->crossings > 1), false});
-        }
+      enum : char { good, turned, far };
+      std::vector<char> found(unseen_.size(), good);
+      const int threads = measure_.criteria().has_functions() ? 1 : mesh_.threads();
+      parallel_for(
+          unseen_.size(), threads,
+          [&](std::size_t k) {
+            const Restricted_facet* f = find_facet(mesh_, unseen_[k]);
+            if (!f) return;
+            const bool is_turned = measure_.factor() <= 1 && cosine_to_surface(mesh_, *f) < least_cosine_to_surface;
+            found[k] = is_turned ? turned : is_far(*f) ? far : good;
+          },
+          16);
+      for (std::size_t k = 0; k < unseen_.size(); ++k) {
+        if (found[k] == good) continue;
+        const bool is_turned = found[k] == turned;
+        has_found_turned_ = has_found_turned_ || is_turned;
+        const bool is_mixed_up = find_facet(mesh_, unseen_[k])->crossings > 1;
+        facets_.push_back({unseen_[k], Measure::just_bad, !is_turned,
+                           !is_turned && must_be_refined(bad_approximation, is_mixed_up), false});
+      }
     }
     unseen_.clear();
   }

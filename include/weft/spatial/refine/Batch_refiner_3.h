@@ -14,6 +14,7 @@
 #include <weft/spatial/refine/Bad_elements_list_3.h>
 #include <weft/spatial/refine/Disk_mender_3.h>
 #include <weft/spatial/refine/Steiner_batch_3.h>
+#include <weft/spatial/refine/Steiner_proposals_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
 
@@ -60,6 +61,7 @@ public:
         batch_(mesh, measure_, size_floor * size_floor),
         bad_(mesh, measure_, batch_.chooser(), with_cells),
         acute_(mesh, measure_, batch_),
+        proposals_(mesh, criteria.has_functions() ? 1 : mesh.threads()),
         random_(seed),
         disks_(mesh, measure_, batch_, acute_, random_)
   {
@@ -114,6 +116,9 @@ public:
 private:
   using Bad_cell = typename Bad_elements_list_3<Restricted>::Bad_cell;
   using Bad_facet = typename Bad_elements_list_3<Restricted>::Bad_facet;
+  using Zone = typename Restricted::Zone;
+  using Proposals = Steiner_proposals_3<Restricted>;
+  using Proposal = typename Proposals::Proposal;
 
   void add_facet(int record, int settled = 0)
   {
@@ -131,9 +136,32 @@ private:
   std::size_t choose_facets()
   {
     auto& facets = bad_.facets();
-    for (Bad_facet& f : facets)
-      if (!f.is_stuck) f.is_stuck = choose(*find_facet(mesh_, f.id), f.is_free, f.is_needed) == Choice_3::impossible;
+    constexpr std::size_t block = Proposals::block_size;
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+      if (i % block == 0) look_ahead_from(i, (std::min)(block, facets.size() - i));
+      Bad_facet& f = facets[i];
+      if (f.is_stuck) continue;
+      const Choice_3 choice = choose(*find_facet(mesh_, f.id), f.is_free, f.is_needed, proposals_.find(i % block));
+      f.is_stuck = choice == Choice_3::impossible;
+    }
     return facets.size();
+  }
+
+  void look_ahead_from(std::size_t first, std::size_t n)
+  {
+    const std::vector<Bad_facet>& facets = bad_.found_facets();
+    const auto facet = [&](std::size_t k) { return find_facet(mesh_, facets[first + k].id); };
+    proposals_.look_ahead(
+        n, batch_.number(),
+        [&](std::size_t k) {
+          const bool may_be = !facets[first + k].is_stuck && facets[first + k].is_free && !batch_.is_full() &&
+                              facet(k)->cell->batch() != batch_.number() &&
+                              facet(k)->squared_radius >= batch_.squared_floor();
+          return may_be ? facet(k)->cell : Cell_handle();
+        },
+        [&](std::size_t k, const auto& find, Zone& zone, std::size_t& candidates) {
+          return find_best(*facet(k), find, zone, candidates);
+        });
   }
 
   /// Multiple choice: always the worst of a few random ones.
@@ -146,23 +174,63 @@ private:
       if (!cells[i].is_stuck) pool_[n++] = static_cast<int>(i);
     pool_.resize(n);
     container_.clear();
+    std::size_t in_vain = 0;
+    for (bool goes_on = true; goes_on;) {
+      const std::mt19937 before = random_;
+      pick_cells(Proposals::block_size);
+      if (picked_.empty()) break;
+      proposals_.look_ahead(
+          picked_.size(), batch_.number(),
+          [&](std::size_t k) {
+            const Cell_handle c = cells[picked_[k].cell].cell;
+            return !is_near_claimed(c) && squared_radius(c) >= batch_.squared_floor() ? c : Cell_handle();
+          },
+          [&](std::size_t k, const auto& find, Zone& zone, std::size_t& candidates) {
+            ++candidates;
+            return batch_.chooser().choose_by(cells[picked_[k].cell].cell, find, zone);
+          });
+      for (std::size_t k = 0; k < picked_.size(); ++k) {
+        goes_on = !batch_.is_full() &&
+                  !(batch_.size() > 0 && in_vain > in_vain_at_least + in_vain_for_each * batch_.size());
+        if (!goes_on) { // as if the others hadn't been picked
+          random_ = before;
+          random_.discard(k > 0 ? picked_[k - 1].draws : 0);
+          break;
+        }
+        Bad_cell& b = cells[picked_[k].cell];
+        if (is_near_claimed(b.cell)) continue;
+        const Choice_3 choice = choose(b.cell, proposals_.find(k));
+        b.is_stuck = choice == Choice_3::impossible;
+        in_vain += choice == Choice_3::later;
+      }
+    }
+    return cells.size();
+  }
+
+  /// A bad cell by its place in the list, and how many random numbers were drawn since the block began.
+  struct Picked
+  {
+    std::size_t cell;
+    unsigned long long draws;
+  };
+
+  /// The cells that come next; fewer, or none, if there are no more.
+  void pick_cells(std::size_t most)
+  {
+    const std::vector<Bad_cell>& cells = bad_.found_cells();
     const auto is_better = [&cells](int i, int j) {
       return cells[static_cast<std::size_t>(i)].ratio < cells[static_cast<std::size_t>(j)].ratio;
     };
-    std::size_t in_vain = 0;
-    while (!batch_.is_full() && !(batch_.size() > 0 && in_vain > in_vain_at_least + in_vain_for_each * batch_.size())) {
-      while (container_.size() < choices && !pool_.empty()) container_.push_back(take_random());
-      if (container_.empty()) break;
+    picked_.clear();
+    unsigned long long draws = 0;
+    while (picked_.size() < most) {
+      for (; container_.size() < choices && !pool_.empty(); ++draws) container_.push_back(take_random());
+      if (container_.empty()) return;
       const auto worst = std::max_element(container_.begin(), container_.end(), is_better);
-      Bad_cell& b = cells[static_cast<std::size_t>(*worst)];
+      picked_.push_back({static_cast<std::size_t>(*worst), draws});
       *worst = container_.back();
       container_.pop_back();
-      if (is_near_claimed(b.cell)) continue;
-      const Choice_3 choice = choose(b.cell);
-      b.is_stuck = choice == Choice_3::impossible;
-      in_vain += choice == Choice_3::later;
     }
-    return cells.size();
   }
 
   int take_random()
@@ -184,12 +252,13 @@ private:
   }
 
   /// \param free whether the point may be moved; the topology of a mesh is mended only by the Steiner point itself.
-  Choice_3 choose(const Restricted_facet& f, bool free, bool needed)
+  /// \param proposal null if there is none.
+  Choice_3 choose(const Restricted_facet& f, bool free, bool needed, Proposal* proposal = nullptr)
   {
     if (!needed && acute_.is_left(f.steiner, f.squared_radius)) return Choice_3::later;
     if (f.squared_radius < (free ? batch_.squared_floor() : batch_.squared_topology_floor()))
       return Choice_3::impossible;
-    const Zone_result result = free ? find_best(f) : batch_.find_near(disks_.steiner_point(f), f);
+    const Zone_result result = free ? find_best(f, proposal) : batch_.find_near(disks_.steiner_point(f), f);
     if (result != Zone_result::found) return batch_.failure(result);
     if (const Crease_edge* e = batch_.encroached_edge()) return acute_.choose(*e, needed);
     return batch_.accept({2, f.patch});
@@ -198,32 +267,50 @@ private:
   /// The best Steiner point of a facet, or where the surface bends near its own, a point there. A tip that the facet
   /// misses by more than the bound comes first. Reaches of 0.4 and 0.5 radii: of 0.3 to 0.7 for both, these give the
   /// fewest vertices on average.
-  Zone_result find_best(const Restricted_facet& f)
+  template <class Find>
+  Zone_result find_best(const Restricted_facet& f, const Find& find, Zone& zone, std::size_t& candidates) const
   {
-    if (f.cell->batch() == batch_.number()) return Zone_result::claimed; // looking for the point would tell no more
     Point p = f.steiner;
     const auto missed = measure_.worst_missed_point(f);
     const double radius = std::sqrt(f.squared_radius);
+    ++candidates;
     if (missed.ratio > 1) {
       if (missed.is_vertex) p = missed.point;
     }
     // Between the sides of an acute edge it isn't the best point that ends refinement but the mirror image.
     else if (!mesh_.oracle().attract(p, 0.4 * radius, 0.5 * radius, f.patch) &&
              !mesh_.oracle().is_at_acute_edge(f.steiner, radius)) {
-      return batch_.find_best(f);
+      return batch_.chooser().choose_by(f, find, zone);
     }
-    const Zone_result result = batch_.find_near(p, f);
-    return result == Zone_result::no_conflict && p != f.steiner ? batch_.find_near(f.steiner, f) : result;
+    const Zone_result result = batch_.chooser().find_by(p, f, find, zone);
+    if (result != Zone_result::no_conflict || p == f.steiner) return result;
+    ++candidates;
+    return batch_.chooser().find_by(f.steiner, f, find, zone);
   }
 
-  Choice_3 choose(Cell_handle c)
+  Zone_result find_best(const Restricted_facet& f, Proposal* proposal)
+  {
+    if (f.cell->batch() == batch_.number()) return Zone_result::claimed; // looking for the point would tell no more
+    if (proposal) return batch_.take(*proposal);
+    std::size_t candidates = 0;
+    const Zones_between_claims_3<Restricted> find{mesh_.triangulation(), batch_.number()};
+    const Zone_result result = find_best(f, find, batch_.zone(), candidates);
+    batch_.add_candidates(candidates);
+    return result;
+  }
+
+  static double squared_radius(Cell_handle c)
+  {
+    return CGAL::to_double(CGAL::squared_distance(c->circumcenter(), c->vertex(0)->point()));
+  }
+
+  Choice_3 choose(Cell_handle c, Proposal* proposal)
   {
     const Point& p = c->circumcenter();
-    const double squared_radius = CGAL::to_double(CGAL::squared_distance(p, c->vertex(0)->point()));
-    if (squared_radius < batch_.squared_floor()) return Choice_3::impossible;
+    if (squared_radius(c) < batch_.squared_floor()) return Choice_3::impossible;
     const bool needed = must_be_refined(measure_.cell(c).reasons, false);
-    if (!needed && acute_.is_left(p, squared_radius)) return Choice_3::later;
-    Zone_result result = batch_.find_best(c);
+    if (!needed && acute_.is_left(p, squared_radius(c))) return Choice_3::later;
+    Zone_result result = proposal ? batch_.take(*proposal) : batch_.find_best(c);
     if (result == Zone_result::found) return batch_.accept({3, c->subdomain()});
     if (result == Zone_result::no_conflict) result = batch_.find(p, c);
     if (result != Zone_result::found) return batch_.failure(result);
@@ -268,9 +355,11 @@ private:
   Steiner_batch_3<Restricted> batch_;
   Bad_elements_list_3<Restricted> bad_;
   Acute_refinement_3<Restricted> acute_;
+  Proposals proposals_;
   std::mt19937 random_; ///< all random choices, in the order in which they are made
   Disk_mender_3<Restricted> disks_;
   std::vector<int> pool_, container_;
+  std::vector<Picked> picked_; ///< from these, what comes next
 };
 
 } // namespace weft::internal

@@ -42,27 +42,29 @@ public:
   /// Bad facets whose balls the point of a zone enters, less the bad triangles between it and the boundary of their
   /// union, plus `gain`; anything up to `least` if it is less than that. How far such a triangle will be from the
   /// surface is estimated at its circumcenter.
-  double operator()(const Zone& zone, double gain, double least)
+  double operator()(const Zone& zone, double gain, double least) const
   {
-    sides_.clear();
-    records_.clear();
+    thread_local std::vector<int> records;
+    thread_local std::vector<Side> sides;
+    sides.clear();
+    records.clear();
     for (const Cell_handle c : zone.cells)
       for (int i = 0; i < 4; ++i)
         if (const Restricted_facet* f = mesh_.facet(c, i))
-          if (squared(zone.point, f->steiner) < f->squared_radius) records_.push_back(c->facet_record(i));
-    std::sort(records_.begin(), records_.end());
-    records_.erase(std::unique(records_.begin(), records_.end()), records_.end());
-    for (const int record : records_) {
+          if (squared(zone.point, f->steiner) < f->squared_radius) records.push_back(c->facet_record(i));
+    std::sort(records.begin(), records.end());
+    records.erase(std::unique(records.begin(), records.end()), records.end());
+    for (const int record : records) {
       const auto r = static_cast<std::size_t>(record);
       gain += is_bad_facet_[r];
       for (int i = 1; i <= 3; ++i) {
         const Vertex_handle v = Measure::vertex(mesh_.facets()[r], i),
                             w = Measure::vertex(mesh_.facets()[r], i % 3 + 1);
-        sides_.push_back(v->id() < w->id() ? Side(v, w) : Side(w, v));
+        sides.push_back(v->id() < w->id() ? Side(v, w) : Side(w, v));
       }
     }
-    keep_single_sides();
-    for (const auto& [v, w] : sides_) {
+    keep_single_sides(sides);
+    for (const auto& [v, w] : sides) {
       if (gain <= least) return gain;
       gain -= is_bad_facet(zone.point, v->point(), w->point());
     }
@@ -73,19 +75,19 @@ private:
   using Side = std::pair<Vertex_handle, Vertex_handle>;
 
   /// Drops the sides that two facets or more have in common.
-  void keep_single_sides()
+  static void keep_single_sides(std::vector<Side>& sides)
   {
-    std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
       return std::make_pair(a.first->id(), a.second->id()) < std::make_pair(b.first->id(), b.second->id());
     });
     std::size_t n = 0;
-    for (std::size_t i = 0; i < sides_.size();) {
+    for (std::size_t i = 0; i < sides.size();) {
       std::size_t j = i + 1;
-      while (j < sides_.size() && sides_[j] == sides_[i]) ++j;
-      if (j == i + 1) sides_[n++] = sides_[i];
+      while (j < sides.size() && sides[j] == sides[i]) ++j;
+      if (j == i + 1) sides[n++] = sides[i];
       i = j;
     }
-    sides_.resize(n);
+    sides.resize(n);
   }
 
   bool is_bad_facet(const Point& p, const Point& q, const Point& r) const
@@ -104,8 +106,6 @@ private:
   const Restricted& mesh_;
   const Measure& measure_;
   std::vector<char> is_bad_facet_; ///< by record
-  std::vector<int> records_;
-  std::vector<Side> sides_;
 };
 
 } // namespace weft::internal

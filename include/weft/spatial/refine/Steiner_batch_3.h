@@ -10,6 +10,7 @@
 #include <weft/spatial/refine/crease_steiner_point_3.h>
 #include <weft/spatial/refine/Mirror_twins_3.h>
 #include <weft/spatial/refine/Steiner_chooser_3.h>
+#include <weft/spatial/refine/Steiner_proposals_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -60,6 +62,7 @@ public:
   }
 
   Chooser& chooser() { return chooser_; }
+  const Chooser& chooser() const { return chooser_; }
   int number() const { return number_; }
   std::size_t size() const { return used_; }
   bool is_full() const { return used_ >= room_; }
@@ -85,6 +88,15 @@ public:
   {
     ++candidates_;
     return chooser_.find(p, f, number_, zone());
+  }
+
+  /// What was found ahead.
+  Zone_result take(typename Steiner_proposals_3<Restricted>::Proposal& proposal)
+  {
+    candidates_ += proposal.candidates;
+    if (proposal.is_claimed(number_)) return Zone_result::claimed;
+    std::swap(zone(), proposal.zone);
+    return proposal.result;
   }
 
   /// The best point for a facet or cell.
@@ -165,6 +177,7 @@ public:
   }
 
   std::size_t candidates() const { return candidates_; }
+  void add_candidates(std::size_t n) { candidates_ += n; }
   std::size_t encroachments() const { return encroachments_; }
 
 private:

@@ -12,6 +12,7 @@
 
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/refine/Facet_gain_3.h>
+#include <weft/spatial/refine/Steiner_proposals_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -52,31 +53,41 @@ public:
   /// \param batch zones that touch its claims are off limits.
   /// \returns `found` with the zone of that point; `claimed` if a candidate's zone is off limits; `no_conflict` if
   /// there is no such point.
-  Zone_result choose(Cell_handle c, int batch, Zone& zone)
+  Zone_result choose(Cell_handle c, int batch, Zone& zone) const { return choose_by(c, between_claims(batch), zone); }
+
+  /// The same; several threads may ask.
+  /// \param find see Steiner_proposals_3.h.
+  template <class Find>
+  Zone_result choose_by(Cell_handle c, const Find& find, Zone& zone) const
   {
-    collect(c);
+    const std::vector<Point>& points = collect(c);
     const double radius = squared(c->circumcenter(), c->vertex(0)->point());
     Best best;
-    for (const Point& p : points_)
-      if (!consider(p, c, batch, radius, zone, best)) return Zone_result::claimed;
+    for (const Point& p : points)
+      if (!consider(p, c, find, radius, zone, best)) return Zone_result::claimed;
     if (best.gain == none) return Zone_result::no_conflict;
     const Point first = best.point;
-    for (const Point& p : points_)
-      if (!consider(CGAL::midpoint(first, p), c, batch, radius, zone, best)) return Zone_result::claimed;
-    const Zone_result result = find_conflict_zone(mesh_.triangulation(), best.point, c, batch, zone);
+    for (const Point& p : points)
+      if (!consider(CGAL::midpoint(first, p), c, find, radius, zone, best)) return Zone_result::claimed;
+    const Zone_result result = find(best.point, c, zone);
     if (result != Zone_result::found || best.point == c->circumcenter()) return result;
     return mesh_.oracle().subdomain(best.point) == c->subdomain() ? result : Zone_result::no_conflict;
   }
 
   /// The best Steiner point for a facet whose size, shape or distance from the surface is bad.
   /// \returns as above, but that the facet's own Steiner point is always possible.
-  Zone_result choose(const Restricted_facet& f, int batch, Zone& zone)
+  Zone_result choose(const Restricted_facet& f, int batch, Zone& zone) const
   {
-    collect(f);
+    return choose_by(f, between_claims(batch), zone);
+  }
+
+  template <class Find>
+  Zone_result choose_by(const Restricted_facet& f, const Find& look, Zone& zone) const
+  {
     Best best{f.steiner, none};
-    for (const Point& p : points_) {
+    for (const Point& p : collect(f)) {
       if (p != f.steiner && squared(p, f.steiner) >= 0.96 * f.squared_radius) continue; // the facet might survive
-      const Zone_result result = find(p, f, batch, zone);
+      const Zone_result result = find_by(p, f, look, zone);
       if (result == Zone_result::claimed) return result; // next time, rather than less well
       if (result != Zone_result::found) continue;
       const double nearest = nearest_in(zone);
@@ -84,16 +95,20 @@ public:
         continue;
       best.take(p, gain_of_facets_(zone, tie(nearest, f.squared_radius), best.gain));
     }
-    return find(best.point, f, batch, zone);
+    return find_by(best.point, f, look, zone);
   }
 
   /// Looks for the zone of a point near a facet from both of its cells.
   Zone_result find(const Point& p, const Restricted_facet& f, int batch, Zone& zone) const
   {
-    const Zone_result result = find_conflict_zone(mesh_.triangulation(), p, f.cell, batch, zone);
-    return result == Zone_result::no_conflict
-               ? find_conflict_zone(mesh_.triangulation(), p, f.cell->neighbor(f.index), batch, zone)
-               : result;
+    return find_by(p, f, between_claims(batch), zone);
+  }
+
+  template <class Find>
+  static Zone_result find_by(const Point& p, const Restricted_facet& f, const Find& find, Zone& zone)
+  {
+    const Zone_result result = find(p, f.cell, zone);
+    return result == Zone_result::no_conflict ? find(p, f.cell->neighbor(f.index), zone) : result;
   }
 
   /// Squared distance from the point of a zone to the nearest vertex.
@@ -147,6 +162,8 @@ public:
   }
 
 private:
+  Zones_between_claims_3<Restricted> between_claims(int batch) const { return {mesh_.triangulation(), batch}; }
+
   static bool may_end_crease_edge(Vertex_handle v) { return v->location().dimension >= 0; }
 
   static constexpr double none = -HUGE_VAL;
@@ -168,49 +185,59 @@ private:
 
   /// For a cell: the mean circumcenter around each edge that is too long, whose insertion is likely to remove that
   /// edge, and the mean of these; the circumcenters of the cell and its neighbours, and the points halfway.
-  void collect(Cell_handle c)
+  const std::vector<Point>& collect(Cell_handle c) const
   {
-    points_.clear();
+    std::vector<Point>& points = scratch();
+    points.clear();
     const double size = measure_.size(c->circumcenter());
     std::array<double, 3> sum{};
     for (int i = 0; i < 3; ++i)
       for (int j = i + 1; j < 4; ++j) {
         if (squared(c->vertex(i)->point(), c->vertex(j)->point()) <= size * size) continue;
         const Point p = mean_circumcenter(c, i, j);
-        points_.push_back(p);
+        points.push_back(p);
         for (int k = 0; k < 3; ++k) sum[static_cast<std::size_t>(k)] += CGAL::to_double(p[k]);
       }
-    if (points_.size() > 1) {
-      const auto n = static_cast<double>(points_.size());
-      points_.emplace_back(sum[0] / n, sum[1] / n, sum[2] / n);
+    if (points.size() > 1) {
+      const auto n = static_cast<double>(points.size());
+      points.emplace_back(sum[0] / n, sum[1] / n, sum[2] / n);
     }
-    points_.push_back(c->circumcenter());
+    points.push_back(c->circumcenter());
     for (int i = 0; i < 4; ++i) {
       const Cell_handle n = c->neighbor(i);
       if (!is_beside(n, c)) continue;
-      points_.push_back(n->circumcenter());
-      points_.push_back(CGAL::midpoint(c->circumcenter(), n->circumcenter()));
+      points.push_back(n->circumcenter());
+      points.push_back(CGAL::midpoint(c->circumcenter(), n->circumcenter()));
     }
+    return points;
   }
 
   /// For a facet: its own Steiner point, those of its neighbours on the patch, and the points of the patch halfway.
   /// Where finding a point of the patch takes many questions, not the latter.
-  void collect(const Restricted_facet& f)
+  const std::vector<Point>& collect(const Restricted_facet& f) const
   {
-    points_.assign(1, f.steiner);
+    std::vector<Point>& points = scratch();
+    points.assign(1, f.steiner);
     for (int i = 1; i <= 3; ++i) {
       auto circulator = mesh_.triangulation().incident_facets(f.cell, (f.index + i) % 4, (f.index + i % 3 + 1) % 4);
       const auto first = circulator;
       do {
         const Restricted_facet* g = mesh_.facet(circulator->first, circulator->second);
         if (!g || g == &f || g->patch != f.patch) continue;
-        points_.push_back(g->steiner);
+        points.push_back(g->steiner);
         if constexpr (!Restricted::Oracle::labels_first) {
           const auto hit = mesh_.oracle().project_on_patch(CGAL::midpoint(f.steiner, g->steiner), f.patch);
-          if (hit.patch == f.patch) points_.push_back(hit.point);
+          if (hit.patch == f.patch) points.push_back(hit.point);
         }
       } while (++circulator != first);
     }
+    return points;
+  }
+
+  static std::vector<Point>& scratch()
+  {
+    thread_local std::vector<Point> points;
+    return points;
   }
 
   static bool is_beside(Cell_handle n, Cell_handle c)
@@ -239,10 +266,11 @@ private:
 
   /// Tries a candidate for a cell, moved out of the surface Delaunay balls that it enters: splitting their facets
   /// instead takes more vertices, since nothing was wrong with those. Returns false if it is off limits.
-  bool consider(Point p, Cell_handle c, int batch, double squared_radius, Zone& zone, Best& best)
+  template <class Find>
+  bool consider(Point p, Cell_handle c, const Find& find, double squared_radius, Zone& zone, Best& best) const
   {
     for (int step = 0;; ++step) {
-      const Zone_result result = find_conflict_zone(mesh_.triangulation(), p, c, batch, zone);
+      const Zone_result result = find(p, c, zone);
       if (result == Zone_result::claimed) return false;
       if (result != Zone_result::found) return true;
       const Restricted_facet* f = encroached_facet(zone);
@@ -293,7 +321,6 @@ private:
   const Measure& measure_;
   double squared_floor_;
   Facet_gain_3<Restricted> gain_of_facets_;
-  std::vector<Point> points_;
 };
 
 } // namespace weft::internal

@@ -8,6 +8,7 @@
 #ifndef WEFT_SPATIAL_REFINE_INTERIOR_LATTICE_3_H
 #define WEFT_SPATIAL_REFINE_INTERIOR_LATTICE_3_H
 
+#include <weft/internal/parallel_for.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -26,9 +27,11 @@ namespace weft::internal {
 /// (Amenta, Choi, Rote, "Incremental constructions con BRIO", 2003).
 /// \param spacing edge length of the cubes, in the input's units.
 /// \param clearance smallest distance from the boundary, in the input's units.
+/// \param most points; those of the lowest rows.
+/// \param threads to ask the oracle.
 template <class Oracle>
 std::vector<typename Oracle::Kernel::Point_3> interior_lattice(const Oracle& oracle, double spacing, double clearance,
-                                                               std::size_t most)
+                                                               std::size_t most, int threads)
 {
   using Point = typename Oracle::Kernel::Point_3;
   const CGAL::Bbox_3 b = oracle.bbox();
@@ -38,13 +41,24 @@ std::vector<typename Oracle::Kernel::Point_3> interior_lattice(const Oracle& ora
   // Centred in the box, so that symmetric domains get symmetric lattices.
   const double x0 = 0.5 * (b.xmin() + b.xmax() - nx * spacing), y0 = 0.5 * (b.ymin() + b.ymax() - ny * spacing),
                z0 = 0.5 * (b.zmin() + b.zmax() - nz * spacing);
-  for (int k = 0; k <= 2 * nz; ++k)
-    for (int j = 0; j <= ny; ++j)
-      for (int i = 0; i <= nx && points.size() < most; ++i) {
-        const double shift = k % 2 == 0 ? 0 : 0.5;
-        const Point p(x0 + (i + shift) * spacing, y0 + (j + shift) * spacing, z0 + 0.5 * k * spacing);
-        if (oracle.is_clear(p, clearance) && oracle.subdomain(p) != 0) points.push_back(p);
-      }
+  std::vector<std::vector<Point>> rows(static_cast<std::size_t>(ny) + 1);
+  for (int k = 0; k <= 2 * nz && points.size() < most; ++k) {
+    const double shift = k % 2 == 0 ? 0 : 0.5;
+    parallel_for(
+        rows.size(), threads,
+        [&](std::size_t j) {
+          rows[j].clear();
+          for (int i = 0; i <= nx; ++i) {
+            const Point p(x0 + (i + shift) * spacing, y0 + (static_cast<int>(j) + shift) * spacing,
+                          z0 + 0.5 * k * spacing);
+            if (oracle.is_clear(p, clearance) && oracle.subdomain(p) != 0) rows[j].push_back(p);
+          }
+        },
+        1);
+    for (const std::vector<Point>& row : rows)
+      for (const Point& p : row)
+        if (points.size() < most) points.push_back(p);
+  }
   // Row by row, each point would see half of the surface.
   std::vector<Point> in_order;
   in_order.reserve(points.size());

@@ -83,6 +83,8 @@ public:
   /// The facets of these cells whose Voronoi edges meet the boundary, without record numbers or versions.
   const std::vector<Restricted_facet>& facets() const { return facets_; }
 
+  int threads() const { return threads_; }
+
   const Oracle_counts_3& counts() const { return counts_; }
   void add_counts(const Oracle_counts_3& other)
   {

@@ -7,6 +7,8 @@
 #ifndef WEFT_SPATIAL_RESTRICTED_CONFLICT_ZONE_3_H
 #define WEFT_SPATIAL_RESTRICTED_CONFLICT_ZONE_3_H
 
+#include <weft/spatial/restricted/Handle_marks.h>
+
 #include <CGAL/enum.h>
 
 #include <cstddef>
@@ -41,6 +43,8 @@ enum class Zone_result
   no_conflict, ///< the start isn't in conflict: the point is a vertex already, or was rounded out of its zone
   infinite     ///< the point lies outside the hull
 };
+
+constexpr int no_batch = -2; ///< that no cell has: those without one have -1
 
 /// Finds the conflict zone of `point`, given a cell in conflict with it.
 ///
@@ -92,8 +96,59 @@ template <class Triangulation>
 Zone_result find_conflict_zone(const Triangulation& tr, const typename Triangulation::Point& point,
                                typename Triangulation::Cell_handle near, Conflict_zone_3<Triangulation>& zone)
 {
-  constexpr int no_batch = -2; // cells without one have -1
   return find_conflict_zone(tr, point, tr.locate(point, near), no_batch, zone);
+}
+
+/// The same while other threads look at the triangulation, too: marks are kept beside it. The cells come in the same
+/// order.
+/// \param marks get 1 for each cell of the zone and 0 for those around it.
+/// \param step `step(cell, i)` returns the cell behind a facet, and the number of the facet in that cell.
+template <class Triangulation, class Step>
+Zone_result find_conflict_zone_aside(const Triangulation& tr, const typename Triangulation::Point& point,
+                                     typename Triangulation::Cell_handle start, int batch,
+                                     Conflict_zone_3<Triangulation>& zone, Handle_marks& marks, const Step& step)
+{
+  zone.clear();
+  zone.point = point;
+  if (start->batch() == batch) return Zone_result::claimed;
+  marks.clear();
+  for (int i = 0; i < 4; ++i) // symbolic perturbation knows no equal points
+    if (!tr.is_infinite(start->vertex(i)) && start->vertex(i)->point() == point) return Zone_result::no_conflict;
+  if (tr.side_of_sphere(start, point, true) != CGAL::ON_BOUNDED_SIDE) return Zone_result::no_conflict;
+  marks.add(start, 1);
+  zone.cells.push_back(start);
+  for (std::size_t k = 0; k < zone.cells.size(); ++k) {
+    const auto c = zone.cells[k];
+    for (int i = 0; i < 4; ++i) {
+      const auto [n, index] = step(c, i);
+      const int mark = marks.get(n);
+      if (mark == 1) continue;
+      if (mark == Handle_marks::none) {
+        if (tr.side_of_sphere(n, point, true) == CGAL::ON_BOUNDED_SIDE) {
+          zone.cells.push_back(n);
+          marks.add(n, 1);
+          if (n->batch() == batch) return Zone_result::claimed;
+          if (tr.is_infinite(n)) return Zone_result::infinite;
+          continue;
+        }
+        marks.add(n, 0);
+      }
+      zone.hull.emplace_back(n, index);
+    }
+  }
+  return Zone_result::found;
+}
+
+/// The same in the triangulation as it is.
+template <class Triangulation>
+Zone_result find_conflict_zone_aside(const Triangulation& tr, const typename Triangulation::Point& point,
+                                     typename Triangulation::Cell_handle start, int batch,
+                                     Conflict_zone_3<Triangulation>& zone, Handle_marks& marks)
+{
+  return find_conflict_zone_aside(tr, point, start, batch, zone, marks, [](auto c, int i) {
+    const auto n = c->neighbor(i);
+    return std::make_pair(n, n->index(c));
+  });
 }
 
 /// Claims a zone and the cells next to it for a batch.

@@ -14,6 +14,7 @@
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/Crease_tracer_3.h>
 #include <weft/spatial/restricted/Facet_records_3.h>
+#include <weft/spatial/restricted/insert_in_streams_3.h>
 #include <weft/spatial/restricted/Mesh_triangulation_3.h>
 #include <weft/spatial/restricted/spatial_order_3.h>
 #include <weft/spatial/restricted/Star_filling_3.h>
@@ -21,6 +22,7 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -85,6 +87,8 @@ public:
   const Feature_incidence_3& incidence() const { return incidence_; }
   const Triangulation& triangulation() const { return *tr_; }
   const internal::Crease_tracer_3<Triangulation>& creases() const { return tracer_; }
+  /// How many threads may ask the oracle at once.
+  int threads() const { return classifier_.threads(); }
   const internal::Oracle_counts_3& counts() const { return classifier_.counts(); }
   /// Adds questions that were asked to prepare changes.
   void add_counts(const internal::Oracle_counts_3& counts) { classifier_.add_counts(counts); }
@@ -171,18 +175,27 @@ public:
     return insert(zone, location, static_cast<int>(vertices_.size()) - 1);
   }
 
-  /// Inserts points inside one after the other, each near the one before, and classifies only what is there at the end.
+  /// Inserts points inside and classifies only what is there at the end. Points are numbered in the order given, after
+  /// the vertices that there are.
+  /// \param points in an order in which to insert them, see `insertion_order_3()`.
   /// \param subdomains of the points.
   void insert(const std::vector<Point>& points, const std::vector<int>& subdomains)
   {
-    Zone zone;
+    const std::size_t before = vertices_.size();
+    vertices_.resize(before + points.size());
+    touched_.resize(vertices_.size(), update_number_);
     creases_are_stale_ = true;
-    Cell_handle hint = vertices_.empty() ? Cell_handle() : vertices_.back()->cell();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (internal::find_conflict_zone(*tr_, points[i], hint, zone) != internal::Zone_result::found) continue;
-      hint = insert(zone, {3, subdomains[i]})->cell();
-      new_cells_.clear(); // some of them don't live to see the end
-    }
+    internal::insert_in_streams_3(
+        *tr_, points, before == 0 ? Cell_handle() : vertices_[before - 1]->cell(), threads(), batches_,
+        [&](const Zone& zone, std::size_t i) {
+          new_cells_.clear(); // some of them don't live to see the end
+          return insert(zone, {3, subdomains[i]}, static_cast<int>(before + i));
+        });
+    vertices_.erase(std::remove(vertices_.begin() + static_cast<std::ptrdiff_t>(before), vertices_.end(), Vertex_handle()),
+                    vertices_.end()); // of points where there was a vertex already
+    for (std::size_t i = before; i < vertices_.size(); ++i) vertices_[i]->set_id(static_cast<int>(i));
+    touched_.resize(vertices_.size());
+    new_cells_.clear();
     for (const Cell_handle c : tr_->finite_cell_handles())
       if (!c->is_classified()) new_cells_.push_back(c);
     classify();

@@ -70,6 +70,17 @@ public:
   /// The neighbours of the vertex.
   const std::vector<Vertex_handle>& neighbours() const { return neighbours_; }
 
+  /// The facet between one of these cells and one around the star, seen from both.
+  struct Hull_facet
+  {
+    Cell_handle inner;
+    int inner_index;
+    Cell_handle outer;
+    int outer_index;
+  };
+  /// In the order of the star's cells, each of which had one of them.
+  const std::vector<Hull_facet>& hull() const { return hull_; }
+
   /// Puts the cells in the place of the vertex.
   /// \param star as in `find()`.
   /// \param made gets the cells in the triangulation, in the order of `cells()`.
@@ -98,14 +109,6 @@ private:
   using Numbers = std::array<int, 3>;
   using Cell = typename Triangulation::Triangulation_data_structure::Cell;
   using Cell_range = typename Triangulation::Triangulation_data_structure::Cell_range;
-
-  struct Hull_facet
-  {
-    Cell_handle inner;
-    int inner_index;
-    Cell_handle outer;
-    int outer_index;
-  };
 
   /// A facet with one cell so far.
   struct Side

@@ -153,7 +153,7 @@ private:
   {
     const double spacing = lattice_spacing * criteria_.size.constant();
     const std::size_t room = options_.max_vertices - (std::min)(options_.max_vertices, mesh_.vertices().size());
-    auto points = interior_lattice(oracle_, spacing, lattice_clearance * spacing, room);
+    auto points = interior_lattice(oracle_, spacing, lattice_clearance * spacing, room, mesh_.threads());
     drop_encroaching(mesh_, spacing, lattice_clearance * spacing, points);
     std::vector<int> subdomains;
     for (const Point& p : points) subdomains.push_back(oracle_.subdomain(p));

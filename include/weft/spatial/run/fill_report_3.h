@@ -104,7 +104,7 @@ void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteri
        : at.dimension == 1 ? report.crease_vertices
        : at.dimension == 2 ? report.patch_vertices
                            : report.interior_vertices);
-  const Quality_3 quality = measure_quality_3(mesh);
+  const Quality_3 quality = measure_quality_3(mesh, restricted.threads());
   report.smallest_dihedral = quality.smallest_dihedral.degrees;
   report.largest_dihedral = quality.largest_dihedral.degrees;
   report.largest_facet_shape = quality.largest_facet_ratio;

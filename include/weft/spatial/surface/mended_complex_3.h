@@ -150,7 +150,8 @@ Piecewise_smooth_complex_3<K> mend_complex(const Polygon_soup_3<K>& soup, const 
                      failure.elements());
 }
 
-/// Several surfaces, cut where they meet, after merging them has failed. \throws Domain_error: that failure.
+/// Several surfaces, cut where they meet, after merging them has failed.
+/// \throws Domain_error: that failure.
 /// \param order see `merge_surfaces()`.
 template <class K>
 Piecewise_smooth_complex_3<K> resolve_and_merge(const std::vector<Polygon_soup_3<K>>& surfaces,
@@ -198,7 +199,8 @@ Piecewise_smooth_complex_3<K> complex_of_one(const Polygon_soup_3<K>& soup, cons
   return complex;
 }
 
-/// A surface whose groups bound solids. \throws Domain_error if they don't.
+/// A surface whose groups bound solids.
+/// \throws Domain_error if they don't.
 template <class K>
 Piecewise_smooth_complex_3<K> complex_of_solids(const Surface_solids_3<K>& solids, const Feature_options& options,
                                                 const Mend_options_3& mending)

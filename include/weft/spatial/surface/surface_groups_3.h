@@ -42,7 +42,8 @@ struct Group_side_3
   }
 };
 
-/// Calls `visit(first, last)` for the sides in each edge. \param sides sorted.
+/// Calls `visit(first, last)` for the sides in each edge.
+/// \param sides sorted.
 template <class Visit>
 void for_each_edge_of_groups(const std::vector<Group_side_3>& sides, const Visit& visit)
 {
