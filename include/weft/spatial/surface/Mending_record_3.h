@@ -99,7 +99,7 @@ struct Mending_record_3
     std::snprintf(text, sizeof text, "%.2g", x);
     return text;
   }
-  static std::string percent(double share) { return brief(100 * share) + " %"; }
+  static std::string percent(double share) { return (share < 0.995 ? brief(100 * share) : "100") + " %"; }
   /// \endcond
 };
 
