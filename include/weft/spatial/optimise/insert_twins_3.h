@@ -190,7 +190,8 @@ private:
     return nearest;
   }
 
-  /// Whether what `find_group()` has found betters the worst cell, whatever becomes of the boundary.
+  /// Whether what `find_group()` has found betters the worst cell, or leaves what the perturber mends, whatever becomes
+  /// of the boundary.
   bool betters()
   {
     std::size_t n = 0;
@@ -208,7 +209,8 @@ private:
         if (c->subdomain() != 0) after = (std::max)(after, judge_.measure(c));
     }
     take_back(n);
-    return n == points_.size() && after < worst_before_ - Perturbation_judge_3<Restricted>::least_gain;
+    return n == points_.size() &&
+           after < (std::max)(worst_before_ - Perturbation_judge_3<Restricted>::least_gain, mendable_);
   }
 
   /// Inserts it, all at once: so the guard sees all that is new. Takes it back unless the guard accepts it.
@@ -244,6 +246,7 @@ private:
   Perturbation_judge_3<Restricted> judge_;
   const std::function<bool()>& goes_on_;
   const double bound_ = cosine_of_degrees(20), bound_of_forced_ = cosine_of_degrees(15);
+  const double mendable_ = cosine_of_degrees(16); ///< shorter edges leave the vertices around more room
   std::vector<Cell_handle> star_;
   std::vector<Point> points_; ///< of the group to be inserted
   std::vector<Vertex_location_3> locations_;
@@ -252,9 +255,8 @@ private:
 };
 
 /// Inserts twins at cells that are worse than 20 degrees though no small angle forces them, as long as that betters
-/// them, at most one for each eight vertices. Linear in the size of the mesh for each trial, of which there are the
-/// fewer the larger the mesh is.
-/// \returns the number of vertices inserted.
+/// them or leaves what the perturber can mend, at most one for each eight vertices. Linear in the size of the mesh for
+/// each trial, of which there are the fewer the larger the mesh is. \returns the number of vertices inserted.
 template <class Restricted>
 std::size_t insert_twins(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const std::function<bool()>& goes_on)
 {

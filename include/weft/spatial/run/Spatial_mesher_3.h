@@ -290,7 +290,7 @@ private:
 
   // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
   static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.3;
-  static constexpr unsigned rounds_of_twins = 3; ///< insertions
+  static constexpr unsigned rounds_of_twins = 5; ///< insertions
 
   const Oracle& oracle_;
   Criteria_3<Kernel> criteria_;
