@@ -278,6 +278,25 @@ TEST_CASE("cells between twins aren't flat, and others are good")
   }
 }
 
+TEST_CASE("a wedge that begins narrower than its vertices are apart has good cells beside it, however it is turned")
+{
+  // Two teeth of 11.5 degrees around a shaft, 0.2 wide at their roots, where edges may be 1 long.
+  const Surface s = thin::revolved(
+      {{0, 0}, {2, 0}, {2.6, 0.35}, {3.6, 0.45}, {2.6, 0.55}, {2.6, 1.15}, {3.6, 1.25}, {2.6, 1.35}, {2, 2}, {0, 2}},
+      24);
+  for (const unsigned seed : {1u, 2u}) {
+    INFO("turned " << seed);
+    const Oracle oracle = oracle_of(turned(s, seed));
+    const auto [restricted, report] = weft::make_mesh_3(oracle, criteria_of(1, 0.0075));
+    INFO(report);
+    CHECK(report.ok());
+    const auto [inside, at_boundary] = smallest_angles(weft::tetrahedral_mesh(restricted));
+    CHECK(inside > 19);
+    CHECK(at_boundary > 0.6 * 11.5);
+    CHECK(report.largest_dihedral < 165);
+  }
+}
+
 TEST_CASE("a closed crease is whole though its first point is as far from one vertex as from another")
 {
   // Two pyramids base to base, over an octagon with coordinates that make distances exact.

@@ -185,6 +185,10 @@ private:
             if (!nearest || distance(image, twin->point()) < distance(*nearest, twin->point())) nearest = image;
           });
       if (!nearest || !(distance(*nearest, twin->point()) < group.spacing)) return false;
+      // Near a crease images lie on it. A twin that stays behind there is none any more, and cells between them are
+      // flat.
+      const double way = distance(from, parent->point());
+      if (std::abs(distance(*nearest, twin->point()) - way) > as_far * way) return false;
       targets.push_back(*nearest);
     }
     return true;
@@ -217,6 +221,7 @@ private:
   }
 
   static constexpr double same = 1e-6;     ///< part of the distance of twins
+  static constexpr double as_far = 0.01;   ///< ways of twins differ by no more than this part
   static constexpr double farthest = 0.35; ///< of the first moves, in parts of the distance to neighbours
   static constexpr int most_passes = 8, most_trials = 40;
   static constexpr std::size_t most_twins = 8;

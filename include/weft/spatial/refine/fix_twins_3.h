@@ -71,6 +71,14 @@ void fix_twins(Restricted& mesh)
   }
 }
 
+/// Whether some vertices stay because of their twins.
+template <class Restricted>
+bool has_fixed_twins(const Restricted& mesh)
+{
+  return std::any_of(mesh.vertices().begin(), mesh.vertices().end(),
+                     [&mesh](auto v) { return mesh.is_fixed_with_twin(v); });
+}
+
 } // namespace weft::internal
 
 #endif // WEFT_SPATIAL_REFINE_FIX_TWINS_3_H

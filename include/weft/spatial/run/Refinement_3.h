@@ -78,6 +78,9 @@ public:
     return go_on;
   }
 
+  /// See Boundary_seeder_3.
+  std::size_t seed_missed() { return seeder_.seed_missed(); }
+
   /// Builds the mesh anew, of other vertices.
   void rebuild(const Vertex_set_3<Kernel>& vertices)
   {

@@ -14,6 +14,7 @@
 #include <weft/spatial/mesh/check_manifold_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/coarsen_3.h>
+#include <weft/spatial/optimise/insert_twins_3.h>
 #include <weft/spatial/optimise/move_twins_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/optimise/smooth_3.h>
@@ -104,12 +105,13 @@ public:
     if (goes_on_ && initial_ && initial_->only_manifold) goes_on_ = check_manifold_3(tetrahedral_mesh(mesh_)).ok();
   }
 
-  /// To be called in between: starts again where elements are bad still, see `restart_where_bad_3()`.
+  /// To be called in between: starts again where elements are bad still, see `restart_where_bad_3()`, and where parts
+  /// of the boundary are missed.
   void start_again_where_bad()
   {
-    if (!goes_on_ || initial_ || refinement_.bad_left() == 0) return;
+    if (!goes_on_ || initial_ || (refinement_.bad_left() == 0 && !oracle_.has_mirror_images())) return;
     run_.begin_stage("starting again", Stage::refinement);
-    goes_on_ = restart_where_bad_3(refinement_);
+    goes_on_ = (refinement_.bad_left() == 0 || restart_where_bad_3(refinement_)) && cover_missed_3(refinement_);
   }
 
   /// The second half; does nothing if the first was stopped.
@@ -268,16 +270,27 @@ private:
     options.seed = options_.seed + 2;
     options.time_limit = run_.time_left();
     options.go_on = [this](double) { return visit(0); };
-    const Perturb_report_3 result = perturb_slivers_3(mesh_, guard(), options);
-    move_twins(mesh_, guard(), options_.seed + 5, goes_on);
-    report_.smoothed_smallest_dihedral = result.before;
-    report_.perturbed = result.by_radius + result.by_volume + result.by_chance;
-    report_.perturb_insertions = result.insertions;
+    // The worst cells are much work: first it is seen what more twins can do about them.
+    const bool mends_worst = options.mend_worst, has_twins = has_fixed_twins(mesh_);
+    for (unsigned round = 0;; ++round) {
+      options.mend_worst = mends_worst && (round > 0 || !has_twins);
+      const Perturb_report_3 result = perturb_slivers_3(mesh_, guard(), options);
+      move_twins(mesh_, guard(), options_.seed + 5 + round, goes_on);
+      if (round == 0) report_.smoothed_smallest_dihedral = result.before;
+      report_.perturbed += result.by_radius + result.by_volume + result.by_chance;
+      report_.perturb_insertions += result.insertions;
+      if (!has_twins || !goes_on()) break;
+      const std::size_t twins = round < rounds_of_twins ? insert_twins(mesh_, guard(), goes_on) : 0;
+      report_.perturb_insertions += twins;
+      if (twins > 0) turn_diagonals(mesh_, guard(), options_.seed + 8 + round);
+      if (twins == 0 && round > 0) break;
+    }
     if (options_.min_dihedral_angle < Perturb_options_3::as_far_as_it_goes) run_.may_go_on();
   }
 
   // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
   static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.3;
+  static constexpr unsigned rounds_of_twins = 5; ///< insertions
 
   const Oracle& oracle_;
   Criteria_3<Kernel> criteria_;
