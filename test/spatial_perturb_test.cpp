@@ -11,6 +11,8 @@
 #include <weft/spatial/mesh/validate_3.h>
 #include <weft/spatial/optimise/perturb_slivers_3.h>
 #include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/restricted/Mesh_without_vertex_3.h>
+#include <weft/spatial/restricted/Moves_together_3.h>
 #include <weft/spatial/surface/piecewise_smooth_complex.h>
 
 #include <catch2/catch.hpp>
@@ -308,6 +310,113 @@ struct Interrupting_oracle : Oracle
 };
 
 } // namespace
+
+namespace {
+
+using Ids = std::vector<int>;
+
+template <class Cell_handle>
+Ids ids_of(Cell_handle c, int but = -1)
+{
+  Ids ids;
+  for (int i = 0; i < 4; ++i)
+    if (i != but) ids.push_back(c->vertex(i)->id());
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+/// The cells of a zone and the facets around it by the ids of their vertices, the latter with those beyond.
+std::set<std::pair<Ids, Ids>> picture_of_zone(const Restricted::Zone& zone)
+{
+  std::set<std::pair<Ids, Ids>> all;
+  for (const auto c : zone.cells) all.emplace(ids_of(c), Ids());
+  for (const auto& [c, i] : zone.hull) all.emplace(ids_of(c, i), ids_of(c));
+  return all;
+}
+
+} // namespace
+
+TEST_CASE("points have the same conflict zones in a mesh without a vertex and beside the mesh that has it")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(40));
+  auto result = weft::make_mesh_3(oracle, criteria_of(0.3, 0.02));
+  Restricted& mesh = result.restricted;
+  weft::internal::Mesh_without_vertex_3<Restricted> without(mesh);
+  std::mt19937 random(5);
+  const auto draw = [&random] { return 0.6 * (static_cast<double>(random()) / 4294967295.0 - 0.5); };
+  std::size_t found = 0;
+  for (int k = 0; k < 40; ++k) {
+    const auto v = mesh.vertices()[random() % mesh.vertices().size()];
+    if (v->location().dimension == 0) continue;
+    without.look_at(v, true);
+    REQUIRE(without.leave_out());
+    std::vector<Point> points = {v->point()};
+    std::vector<std::set<std::pair<Ids, Ids>>> zones;
+    for (int n = 0; n < 8; ++n) points.push_back(v->point() + Vector(draw(), draw(), draw()));
+    for (const Point& p : points) {
+      Restricted::Zone zone;
+      zones.emplace_back();
+      if (!without.find_zone(p, zone)) continue;
+      zones.back() = picture_of_zone(zone);
+      for (const auto c : zone.cells) CHECK(without.is_in_zone(c));
+      for (const auto& f : zone.hull) CHECK(!without.is_in_zone(f.first));
+    }
+    weft::internal::Vertex_transaction_3<Restricted> change(mesh, v);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      Restricted::Zone zone;
+      const bool is_found = find_conflict_zone(mesh.triangulation(), points[n], change.filling().front(), zone) ==
+                            weft::internal::Zone_result::found;
+      CHECK((is_found ? picture_of_zone(zone) : std::set<std::pair<Ids, Ids>>()) == zones[n]);
+      found += is_found;
+    }
+    change.roll_back();
+  }
+  CHECK(found > 200);
+}
+
+TEST_CASE("vertices move together, some of them or all are taken back, and everything kept agrees")
+{
+  const Oracle oracle = oracle_of(surfaces::cylinder(40));
+  auto result = weft::make_mesh_3(oracle, criteria_of(0.2, 0.02));
+  Restricted& mesh = result.restricted;
+  const auto before = picture_of(mesh);
+  weft::internal::Moves_together_3<Restricted> together(mesh);
+  std::mt19937 random(6);
+  const auto draw = [&random] { return 0.1 * (static_cast<double>(random()) / 4294967295.0 - 0.5); };
+  const auto check = [&mesh] {
+    const auto agreement = weft::check_restricted_3(mesh);
+    INFO(agreement);
+    CHECK(agreement.ok());
+  };
+  for (const bool all : {false, true}) {
+    together.begin();
+    const auto here = picture_of(mesh);
+    std::size_t refused = 0;
+    for (const auto v : std::vector<Restricted::Vertex_handle>(mesh.vertices()))
+      if (const int id = v->id(); v->location().dimension == 3)
+        refused +=
+            !together.move(id, mesh.vertices()[static_cast<std::size_t>(id)]->point() + Vector(draw(), draw(), draw()));
+    CHECK(together.size() > 5);
+    CHECK(refused > 5); // they would have changed what others made
+    together.classify();
+    check();
+    CHECK(picture_of(mesh) != here);
+    std::vector<char> is_back(together.size(), false);
+    std::vector<std::size_t> waiting;
+    for (std::size_t k = 0; k < together.size(); k += all ? 1 : 2) waiting.push_back(k);
+    for (std::size_t i = 0; i < waiting.size(); ++i) {
+      const std::size_t k = waiting[i];
+      if (is_back[k]) continue;
+      is_back[k] = true;
+      for (const std::size_t other : together.take_back(k))
+        if (!is_back[other]) waiting.push_back(other);
+    }
+    together.classify();
+    check();
+    if (all) CHECK(picture_of(mesh) == here);
+  }
+  CHECK(picture_of(mesh) != before);
+}
 
 TEST_CASE("a change of a vertex that isn't committed is rolled back, wherever it ends")
 {

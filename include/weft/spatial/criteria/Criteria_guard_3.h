@@ -94,24 +94,39 @@ public:
   /// crease edges up only where the change was, and sees patches and creases that have lost everything.
   Refusal_3 refusal() const
   {
-    for (const Cell_handle c : mesh_.new_cells())
+    const Refusal_3 found = refusal(mesh_.new_cells(), mesh_.new_facets(), present_era());
+    return found == Refusal_3::none && has_bare_part() ? Refusal_3::bare : found;
+  }
+
+  /// The same for some cells and facets, but for patches and creases that have lost everything. Several threads may
+  /// ask. \param facets numbers of records. \param era see `Deviation_3::new_era()`.
+  Refusal_3 refusal(const std::vector<Cell_handle>& cells, const std::vector<int>& facets, std::uint64_t era) const
+  {
+    for (const Cell_handle c : cells)
       if (c->subdomain() != 0 && offends(element_of_cell(c), grader_.cell(c))) return Refusal_3::cell;
-    for (const int record : mesh_.new_facets())
+    for (const int record : facets)
       if (offends(element_of_facet(facet(record)), grader_.facet_by_criteria(facet(record)))) return Refusal_3::facet;
-    for (const Cell_handle c : mesh_.new_cells())
+    for (const Cell_handle c : cells)
       if (has_bad_crease_edge(c)) return Refusal_3::crease;
-    for (const int id : boundary_vertices(mesh_.new_cells()))
+    for (const int id : boundary_vertices(cells))
       if (offends({id, -1, -1, -1}, grader_.vertex(vertex(id)))) return Refusal_3::disk;
-    for (const int record : mesh_.new_facets())
+    for (const int record : facets)
       if (offends(element_of_facet(facet(record)), grader_.facet_by_own_distance(facet(record))))
         return Refusal_3::facet;
-    const std::uint64_t era = present_era();
-    for (const int record : mesh_.new_facets()) // the dearest last
+    for (const int record : facets) // the dearest last
       if (offends(element_of_facet(facet(record)), grader_.facet_by_height(facet(record), era)))
         return Refusal_3::facet;
-    return has_bare_part() ? Refusal_3::bare : Refusal_3::none;
+    return Refusal_3::none;
   }
   bool accepts_change() const { return refusal() == Refusal_3::none; }
+
+  /// Whether a patch has lost its last facet, or a crease its last edge.
+  bool has_bare_part() const
+  {
+    return std::any_of(patches_.begin(), patches_.end(), [this](int p) { return mesh_.number_of_facets(p) == 0; }) ||
+           std::any_of(creases_.begin(), creases_.end(),
+                       [this](std::size_t c) { return mesh_.creases().number_of_edges(c) == 0; });
+  }
 
   /// The bad elements among those that the last change of the mesh has made, and all bad crease edges.
   std::vector<Element_3> new_offenders() const
@@ -249,13 +264,6 @@ private:
     const Element_3 e = element_of_facet(f);
     return offends(e, grader_.facet_by_criteria(f)) || offends(e, grader_.facet_by_own_distance(f)) ||
            offends(e, grader_.facet_by_height(f, era));
-  }
-
-  bool has_bare_part() const
-  {
-    return std::any_of(patches_.begin(), patches_.end(), [this](int p) { return mesh_.number_of_facets(p) == 0; }) ||
-           std::any_of(creases_.begin(), creases_.end(),
-                       [this](std::size_t c) { return mesh_.creases().number_of_edges(c) == 0; });
   }
 
   bool has_bad_crease_edge(Cell_handle c) const

@@ -226,13 +226,12 @@ void measure_cells(const Tetrahedral_mesh_3<K>& mesh, int threads, Quality_3& qu
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto& vertices = mesh.cells[c];
     if (c % block.size() == 0)
-      parallel_for(
-          (std::min)(block.size(), mesh.cells.size() - c), threads,
-          [&](std::size_t k) {
-            const Scaled_simplex_3<4> cell(mesh.points, mesh.cells[c + k]);
-            block[k].emplace(Measured{cell, Cell_measures_3(cell)});
-          },
-          64);
+      parallel_for((std::min)(block.size(), mesh.cells.size() - c), threads,
+                   [&](std::size_t k) {
+                     const Scaled_simplex_3<4> cell(mesh.points, mesh.cells[c + k]);
+                     block[k].emplace(Measured{cell, Cell_measures_3(cell)});
+                   },
+                   64);
     const auto& [cell, measures] = *block[c % block.size()];
     double smallest = 180;
     for (std::size_t k = 0; k < 6; ++k) {

@@ -176,9 +176,12 @@ public:
   }
 
   /// Whether what changed last is as good as it was in all that refinement guarantees.
-  bool is_acceptable(Perturb_report_3& report)
+  bool is_acceptable(Perturb_report_3& report) { return is_acceptable(guard_.refusal(), report); }
+
+  /// \param refusal what the guard has said.
+  static bool is_acceptable(Refusal_3 refusal, Perturb_report_3& report)
   {
-    switch (guard_.refusal()) {
+    switch (refusal) {
     case Refusal_3::none:
       return true;
     case Refusal_3::cell:

@@ -9,13 +9,12 @@
 #ifndef WEFT_SPATIAL_OPTIMISE_VERTEX_PERTURBER_3_H
 #define WEFT_SPATIAL_OPTIMISE_VERTEX_PERTURBER_3_H
 
-#include <weft/internal/parallel_for.h>
+#include <weft/spatial/optimise/Move_block_3.h>
 #include <weft/spatial/optimise/Move_search_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
 #include <weft/spatial/optimise/Place_search_3.h>
 #include <weft/spatial/optimise/Success_rates.h>
-#include <weft/spatial/restricted/Handle_marks.h>
 #include <weft/spatial/restricted/Vertex_transaction_3.h>
 
 #include <CGAL/Kernel/global_functions.h>
@@ -25,7 +24,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <deque>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -61,6 +59,7 @@ public:
         judge_(mesh, guard),
         search_(mesh, judge_, options),
         moves_(mesh, guard, options),
+        block_(mesh, guard, options, judge_),
         next_seed_(options.seed)
   {}
 
@@ -104,28 +103,42 @@ public:
     return carry_out(task, found_);
   }
 
-  /// Moves vertices for `Purpose::mend` until `is_late()`; how many were moved. They are worked on in blocks of vertices
-  /// without common neighbours: those left over have their turn later. Several threads find places for those of a
-  /// block. What one of them finds is what it would find when it is the turn of the vertex, unless something that it
-  /// has looked at has changed; then it looks again.
+  /// Moves vertices for `Purpose::mend` until `is_late()`; how many were moved. They are worked on in blocks, see
+  /// Move_block_3.h. What others were in the way of has another try.
   template <class Is_late>
   std::size_t move_all(std::vector<int> ids, int trials, const Is_late& is_late)
   {
     std::size_t moved = 0;
-    std::vector<int> later;
-    while (!ids.empty()) {
+    std::vector<int> later, again;
+    std::vector<char> tries(mesh_.vertices().size(), 0);
+    while (!ids.empty() && !is_late()) {
       later.clear();
-      choose_block(ids, trials, later);
-      const bool looks_ahead = guard_.threads() > 1;
-      const int version = mesh_.version();
-      if (looks_ahead) look_ahead();
-      for (std::size_t k = 0; k < tasks_.size(); ++k) {
-        if (is_late()) return moved;
-        const bool is_known = looks_ahead && is_unchanged(early_[k].seen, version);
-        if (!is_known) moves_.find(tasks_[k], false, found_);
-        moved += carry_out(tasks_[k], is_known ? early_[k] : found_);
+      again.clear();
+      block_.choose(ids, later, [&](int id) { return task_for(id, Purpose::mend, trials, ++next_seed_); });
+      block_.carry_out(report_);
+      for (std::size_t k = 0; k < block_.size(); ++k) {
+        const Found& found = block_.found(k);
+        if (!found.is_wanted) continue;
+        const int id = block_.task(k).id;
+        if (found.is_crowded) {
+          moves_.find(block_.task(k), false, found_);
+          moved += carry_out(block_.task(k), found_);
+          continue;
+        }
+        ++report_.tried_vertices;
+        add_costs(found.costs);
+        if (found.places.empty()) continue;
+        const auto& outcome = block_.outcome(k);
+        for (std::size_t p = 0; p < outcome.tried; ++p) rates_.spend(found.places[p].kind, cost_of_putting_back);
+        if (outcome.has_moved) {
+          note_move(found.places[outcome.tried - 1], id, outcome.origin);
+          ++moved;
+        } else if (outcome.tried == 0 && ++tries[static_cast<std::size_t>(id)] < most_tries) {
+          again.push_back(id);
+        }
       }
-      ids.swap(later);
+      ids.swap(again);
+      ids.insert(ids.end(), later.begin(), later.end());
     }
     return moved;
   }
@@ -233,49 +246,13 @@ private:
     return task;
   }
 
-  /// The first vertices that are far enough from each other.
-  /// \param later gets all others, in their order.
-  void choose_block(const std::vector<int>& ids, int trials, std::vector<int>& later)
+  void note_move(const Place& place, int id, const Point& origin)
   {
-    tasks_.clear();
-    taken_.clear();
-    std::size_t k = 0;
-    for (; k < ids.size() && k < most_looked_at && tasks_.size() < block_size; ++k)
-      if (take(vertex(ids[k])))
-        tasks_.push_back(task_for(ids[k], Purpose::mend, trials, ++next_seed_));
-      else
-        later.push_back(ids[k]);
-    later.insert(later.end(), ids.begin() + static_cast<std::ptrdiff_t>(k), ids.end());
-  }
-
-  /// Takes a vertex and its neighbours unless one of them is taken already.
-  bool take(Vertex_handle v)
-  {
-    neighbours_.assign(1, v);
-    mesh_.triangulation().finite_adjacent_vertices(v, std::back_inserter(neighbours_));
-    neighbours_.erase(std::remove_if(neighbours_.begin(), neighbours_.end(), [](Vertex_handle w) { return w->id() < 0; }),
-                      neighbours_.end());
-    for (const Vertex_handle w : neighbours_)
-      if (taken_.get(w) != Handle_marks::none) return false;
-    for (const Vertex_handle w : neighbours_) taken_.add(w, 1);
-    return true;
-  }
-
-  void look_ahead()
-  {
-    early_.resize(block_size);
-    while (searches_.size() < parts) searches_.emplace_back(mesh_, guard_, options_);
-    parallel_for(
-        parts, guard_.threads(),
-        [this](std::size_t p) {
-          for (std::size_t k = p; k < tasks_.size(); k += parts) searches_[p].find(tasks_[k], true, early_[k]);
-        },
-        1);
-  }
-
-  bool is_unchanged(const std::vector<int>& ids, int version) const
-  {
-    return std::all_of(ids.begin(), ids.end(), [&](int id) { return mesh_.changed_at(vertex(id)) < version; });
+    rates_.succeed(place.kind);
+    ++(place.kind == Search::by_chance          ? report_.by_chance
+       : Search::steps[place.kind].along_radius ? report_.by_radius
+                                                : report_.by_volume);
+    log_.push_back({Change::move, id, origin, vertex(id)->location()});
   }
 
   /// Moves a vertex to the first of the places found that is possible.
@@ -299,11 +276,7 @@ private:
       change.place(judge_.zone());
       rates_.spend(place.kind, cost_of_putting_back);
       if (judge_.is_acceptable(report_)) {
-        rates_.succeed(place.kind);
-        ++(place.kind == Search::by_chance            ? report_.by_chance
-           : Search::steps[place.kind].along_radius ? report_.by_radius
-                                                      : report_.by_volume);
-        log_.push_back({Change::move, task.id, change.origin(), target_.location});
+        note_move(place, task.id, change.origin());
         change.commit();
         return true;
       }
@@ -349,9 +322,8 @@ private:
     return all;
   }
 
-  static constexpr std::size_t block_size = 64, parts = 16; ///< moves of a block, and how many threads may share them
-  static constexpr std::size_t most_looked_at = 512;        ///< vertices, to choose a block
-  static constexpr double cost_of_putting_back = 20;        ///< in trials, with the guard's questions
+  static constexpr char most_tries = 3;              ///< of a vertex in a pass
+  static constexpr double cost_of_putting_back = 20; ///< in trials, with the guard's questions
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted>& guard_;
@@ -360,6 +332,7 @@ private:
   Judge judge_;
   Search search_; ///< for insertions
   Moves moves_;
+  Move_block_3<Restricted> block_;
   Success_rates rates_{Search::kinds};
   unsigned next_seed_;
   double bound_ = 1, kick_bound_ = 1;
@@ -367,11 +340,6 @@ private:
 
   typename Search::Target target_; ///< what the vertex that is inserted is to attain
   Found found_;
-  std::vector<Task> tasks_;    ///< of a block
-  std::vector<Found> early_;   ///< what was found for them before the first was carried out
-  std::deque<Moves> searches_; ///< for that
-  Handle_marks taken_;         ///< vertices at those of a block
-  std::vector<Vertex_handle> neighbours_;
 };
 
 } // namespace weft::internal

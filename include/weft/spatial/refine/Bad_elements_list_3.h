@@ -177,7 +177,12 @@ private:
   void look_again()
   {
     if constexpr (!Restricted::Oracle::labels_first) {
-      enum : char { good, turned, far };
+      enum : char
+      {
+        good,
+        turned,
+        far
+      };
       std::vector<char> found(unseen_.size(), good);
       const int threads = measure_.criteria().has_functions() ? 1 : mesh_.threads();
       parallel_for(

@@ -190,8 +190,8 @@ private:
             return batch_.chooser().choose_by(cells[picked_[k].cell].cell, find, zone);
           });
       for (std::size_t k = 0; k < picked_.size(); ++k) {
-        goes_on = !batch_.is_full() &&
-                  !(batch_.size() > 0 && in_vain > in_vain_at_least + in_vain_for_each * batch_.size());
+        goes_on =
+            !batch_.is_full() && !(batch_.size() > 0 && in_vain > in_vain_at_least + in_vain_for_each * batch_.size());
         if (!goes_on) { // as if the others hadn't been picked
           random_ = before;
           random_.discard(k > 0 ? picked_[k - 1].draws : 0);

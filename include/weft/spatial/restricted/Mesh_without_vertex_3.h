@@ -9,12 +9,12 @@
 
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/Handle_marks.h>
+#include <weft/spatial/restricted/star_aside_3.h>
 #include <weft/spatial/restricted/Star_filling_3.h>
 
 #include <CGAL/enum.h>
 
 #include <cstddef>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -38,8 +38,7 @@ public:
   void look_at(Vertex_handle v, bool keep_seen)
   {
     vertex_ = v;
-    star_.clear();
-    mesh_->triangulation().incident_cells_threadsafe(v, std::back_inserter(star_));
+    list_star_aside(v, star_, in_star_);
     keeps_seen_ = keep_seen;
     seen_.clear();
     is_seen_.clear();
@@ -49,13 +48,7 @@ public:
   }
 
   /// Leaves the vertex out in thought; false where it has too many neighbours for that.
-  bool leave_out()
-  {
-    if (!filling_.find(mesh_->triangulation(), vertex_, star_)) return false;
-    in_star_.clear();
-    for (std::size_t k = 0; k < star_.size(); ++k) in_star_.add(star_[k], static_cast<int>(k));
-    return true;
-  }
+  bool leave_out() { return filling_.find(mesh_->triangulation(), vertex_, star_); }
 
   /// Ids of vertices, if they are kept in mind: while nothing changes around them, nothing that was looked at does.
   const std::vector<int>& seen() const { return seen_; }

@@ -7,6 +7,8 @@
 #define WEFT_SPATIAL_RESTRICTED_REMOVAL_PREVIEW_3_H
 
 #include <weft/spatial/restricted/Cell_classifier_3.h>
+#include <weft/spatial/restricted/Handle_marks.h>
+#include <weft/spatial/restricted/star_aside_3.h>
 #include <weft/spatial/restricted/Star_filling_3.h>
 
 #include <iterator>
@@ -34,11 +36,10 @@ public:
     mesh_->triangulation().incident_cells(v, std::back_inserter(star_));
     return filling_.find(mesh_->triangulation(), v, star_);
   }
-  /// The same while other threads look at the mesh, too; slower.
+  /// The same while other threads look at the mesh, too.
   bool look_without_marks(Vertex_handle v)
   {
-    star_.clear();
-    mesh_->triangulation().incident_cells_threadsafe(v, std::back_inserter(star_));
+    list_star_aside(v, star_, marks_);
     return filling_.find(mesh_->triangulation(), v, star_);
   }
 
@@ -61,6 +62,7 @@ private:
   Star_filling_3<typename Restricted::Triangulation> filling_;
   Cell_classifier_3<typename Restricted::Triangulation, typename Restricted::Oracle> classifier_;
   std::vector<Cell_handle> star_;
+  Handle_marks marks_; ///< of its cells
 };
 
 } // namespace weft::internal

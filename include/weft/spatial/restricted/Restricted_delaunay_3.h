@@ -39,6 +39,8 @@ class Vertex_transaction_3;
 template <class Restricted>
 class Vacant_numbers_3;
 template <class Restricted>
+class Moves_together_3;
+template <class Restricted>
 class Mesh_relocation_3;
 
 } // namespace internal
@@ -185,14 +187,14 @@ public:
     vertices_.resize(before + points.size());
     touched_.resize(vertices_.size(), update_number_);
     creases_are_stale_ = true;
-    internal::insert_in_streams_3(
-        *tr_, points, before == 0 ? Cell_handle() : vertices_[before - 1]->cell(), threads(), batches_,
-        [&](const Zone& zone, std::size_t i) {
-          new_cells_.clear(); // some of them don't live to see the end
-          return insert(zone, {3, subdomains[i]}, static_cast<int>(before + i));
-        });
-    vertices_.erase(std::remove(vertices_.begin() + static_cast<std::ptrdiff_t>(before), vertices_.end(), Vertex_handle()),
-                    vertices_.end()); // of points where there was a vertex already
+    internal::insert_in_streams_3(*tr_, points, before == 0 ? Cell_handle() : vertices_[before - 1]->cell(), threads(),
+                                  batches_, [&](const Zone& zone, std::size_t i) {
+                                    new_cells_.clear(); // some of them don't live to see the end
+                                    return insert(zone, {3, subdomains[i]}, static_cast<int>(before + i));
+                                  });
+    vertices_.erase(
+        std::remove(vertices_.begin() + static_cast<std::ptrdiff_t>(before), vertices_.end(), Vertex_handle()),
+        vertices_.end()); // of points where there was a vertex already
     for (std::size_t i = before; i < vertices_.size(); ++i) vertices_[i]->set_id(static_cast<int>(i));
     touched_.resize(vertices_.size());
     new_cells_.clear();
@@ -265,6 +267,7 @@ public:
 private:
   friend class internal::Vertex_transaction_3<Restricted_delaunay_3>;
   friend class internal::Vacant_numbers_3<Restricted_delaunay_3>;
+  friend class internal::Moves_together_3<Restricted_delaunay_3>;
   friend class internal::Mesh_relocation_3<Restricted_delaunay_3>;
 
   static constexpr char fixed_for_good = 1, fixed_with_twin = 2;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Inserts many points into a spatial Delaunay triangulation in streams: each follows a stretch of a space-filling curve,
-// so that points of different streams are far apart and several threads look for their conflict zones at once. Those
-// that are independent are inserted then, the others after them.
+// Inserts many points into a spatial Delaunay triangulation in streams: each follows a stretch of a space-filling
+// curve, so that points of different streams are far apart and several threads look for their conflict zones at once.
+// Those that are independent are inserted then, the others after them.
 
 #ifndef WEFT_SPATIAL_RESTRICTED_INSERT_IN_STREAMS_3_H
 #define WEFT_SPATIAL_RESTRICTED_INSERT_IN_STREAMS_3_H
