@@ -8,6 +8,7 @@
 #define WEFT_SPATIAL_CRITERIA_FORCED_ELEMENTS_3_H
 
 #include <weft/internal/Answers.h>
+#include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/surface/Feature_incidence_3.h>
 
@@ -141,6 +142,13 @@ double forcing_angle(const Restricted& mesh, typename Restricted::Cell_handle c,
   const auto point = [c](int i) { return &c->vertex(i)->point(); };
   return forcing_angle(mesh.oracle(), mesh.incidence(), {{at(0), at(1), at(2), at(3)}},
                        {{point(0), point(1), point(2), point(3)}}, c->circumcenter(), largest_crease_angle);
+}
+
+/// Whether a cell is next to flat. However small an angle of the input is, it forces no such cell.
+inline bool is_flat(const Dihedral_cosines_3& angles)
+{
+  constexpr double cosine = -0.9962; // of 175 degrees
+  return angles.largest < cosine;
 }
 
 /// Whether small angles of the input force the shape of a cell.

@@ -13,7 +13,7 @@
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
-#include <weft/spatial/restricted/project_on_location_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/restricted/Vertex_transaction_3.h>
 
 #include <CGAL/number_utils.h>

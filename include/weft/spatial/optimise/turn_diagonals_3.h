@@ -63,20 +63,23 @@ void turn_diagonals(Restricted& mesh, Criteria_guard_3<Restricted>& guard, unsig
       if (shifts[id] == most_shifts) continue;
       std::vector<Cell_handle> star;
       mesh.triangulation().incident_cells(v, std::back_inserter(star));
-      double worst = -1, nearest = HUGE_VAL;
-      Vertex_handle twin;
+      double worst = -1, nearest = HUGE_VAL, nearest_along = HUGE_VAL;
+      Vertex_handle twin, next; // next: of the same crease
       for (const Cell_handle c : star) {
         if (c->subdomain() != 0) worst = (std::max)(worst, judge.measure(c));
         for (int i = 0; i < 4; ++i) {
           const Vertex_handle w = c->vertex(i);
           const double d = CGAL::to_double(CGAL::squared_distance(v->point(), w->point()));
-          if (w == v || !(d < nearest)) continue;
-          nearest = d;
-          twin = w;
+          if (w == v) continue;
+          if (d < nearest) nearest = d, twin = w;
+          if (v->location().dimension == 1 && w->location() == v->location() && d < nearest_along)
+            nearest_along = d, next = w;
         }
       }
       if (worst <= bound) continue;
-      const auto toward = (twin->point() - v->point()) / std::sqrt(nearest);
+      // Where a crease has twins on both sides, a shift towards one of them lifts it out of the plane of the others.
+      std::vector<typename Restricted::Kernel::Vector_3> ways{(twin->point() - v->point()) / std::sqrt(nearest)};
+      if (next != Vertex_handle()) ways.push_back((next->point() - v->point()) / std::sqrt(nearest_along));
       const Vertex_location_3 location = v->location();
       judge.set_location(location);
       Vertex_transaction_3<Restricted> change(mesh, v);
@@ -85,7 +88,7 @@ void turn_diagonals(Restricted& mesh, Criteria_guard_3<Restricted>& guard, unsig
       bool kept = false;
       for (int k = 0; k < trials && !kept; ++k) {
         const double shift = step * (2 * (static_cast<double>(random()) / 4294967295.0) - 1);
-        const Point p = change.origin() + shift * toward;
+        const Point p = change.origin() + shift * ways[static_cast<std::size_t>(k) % ways.size()];
         if (!judge.find_zone(p, near)) continue;
         if (judge.judge(worst - Judge::least_gain) >= worst - Judge::least_gain) continue;
         change.place(judge.zone());

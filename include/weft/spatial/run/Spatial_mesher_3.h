@@ -105,13 +105,12 @@ public:
     if (goes_on_ && initial_ && initial_->only_manifold) goes_on_ = check_manifold_3(tetrahedral_mesh(mesh_)).ok();
   }
 
-  /// To be called in between: starts again where elements are bad still, see `restart_where_bad_3()`, and where parts
-  /// of the boundary are missed.
+  /// To be called in between: starts again where elements are bad still, see `restart_where_bad_3()`.
   void start_again_where_bad()
   {
-    if (!goes_on_ || initial_ || (refinement_.bad_left() == 0 && !oracle_.has_mirror_images())) return;
+    if (!goes_on_ || initial_ || refinement_.bad_left() == 0) return;
     run_.begin_stage("starting again", Stage::refinement);
-    goes_on_ = (refinement_.bad_left() == 0 || restart_where_bad_3(refinement_)) && cover_missed_3(refinement_);
+    goes_on_ = restart_where_bad_3(refinement_);
   }
 
   /// The second half; does nothing if the first was stopped.
@@ -255,7 +254,7 @@ private:
   void perturb()
   {
     turn_diagonals(mesh_, guard(), options_.seed + 3);
-    const std::function<bool()> goes_on = [this] { return visit(0); };
+    const std::function<bool()> goes_on = [this] { return visit(0) && run_.has_time(); };
     move_twins(mesh_, guard(), options_.seed + 4, goes_on);
     Perturb_options_3 options;
     options.target = options_.min_dihedral_angle;

@@ -51,7 +51,7 @@ void count_bad_elements(const Restricted& mesh, const Criteria_3<Kernel>& criter
                      [&](auto) { ++report.bad_vertices; });
 }
 
-/// Counts the elements whose shape the input forces. Linear.
+/// Counts the elements whose shape the input forces, and as bad the flat ones that no angle forces. Linear.
 template <class Restricted, class Kernel>
 void count_forced_elements(const Restricted& mesh, const Criteria_3<Kernel>& criteria, Mesh_report_3& report)
 {
@@ -59,8 +59,14 @@ void count_forced_elements(const Restricted& mesh, const Criteria_3<Kernel>& cri
   const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
   for (const auto& f : mesh.facets())
     report.forced_facets += f.cell != typename Restricted::Cell_handle() && measure.has_forced_shape(f);
-  for (const auto c : mesh.triangulation().finite_cell_handles())
-    report.forced_cells += c->subdomain() != 0 && measure.has_forced_shape(c);
+  for (const auto c : mesh.triangulation().finite_cell_handles()) {
+    if (c->subdomain() == 0 || !measure.has_forced_shape(c)) continue;
+    const bool is_bad = is_flat(cosines_of_cell(c));
+    report.forced_cells += !is_bad;
+    report.bad_cells.elements += is_bad;
+    report.bad_cells.shape += is_bad;
+    report.bad_cells.at_acute_edge += is_bad;
+  }
 }
 
 template <class Restricted>

@@ -64,29 +64,6 @@ bool restart_where_bad_3(Refinement_3<Restricted>& refinement)
   }
 }
 
-/// Makes vertices of what the boundary of the mesh misses and refines once more, up to three times. What that makes
-/// worse is undone. \returns false when the run has to end.
-template <class Restricted>
-bool cover_missed_3(Refinement_3<Restricted>& refinement)
-{
-  constexpr int most_rounds = 3;
-  constexpr std::size_t most_batches = 300;
-  Restricted& mesh = refinement.mesh();
-  const auto bad = [&] {
-    return bad_balls(mesh, refinement.criteria(), refinement.size_floor()).size() + count_bare_patches(mesh);
-  };
-  for (int round = 0; round < most_rounds; ++round) {
-    const auto before = vertices_of(mesh);
-    const std::size_t bad_before = bad();
-    if (refinement.seed_missed() == 0) return true;
-    const bool goes_on = refinement.refine(1, true, (std::min)(most_batches, refinement.batches_left() / 2));
-    const bool is_worse = bad() > bad_before;
-    if (is_worse) refinement.rebuild(before);
-    if (is_worse || !goes_on) return goes_on;
-  }
-  return true;
-}
-
 } // namespace weft::internal
 
 #endif // WEFT_SPATIAL_RUN_RESTART_WHERE_BAD_3_H
