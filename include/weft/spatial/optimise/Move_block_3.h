@@ -215,7 +215,7 @@ private:
   }
 
   static constexpr std::size_t most_tasks = 64, parts = 16; ///< of a block, and how many threads may share them
-  static constexpr std::size_t most_looked_at = 512;        ///< vertices, to choose a block
+  static constexpr std::size_t most_looked_at = 128;        ///< vertices, to choose a block
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted>& guard_;

@@ -158,9 +158,8 @@ public:
     return cells_;
   }
 
-  /// What `facets()` and `cells()` returned last.
+  /// What `facets()` returned last.
   const std::vector<Bad_facet>& found_facets() const { return facets_; }
-  const std::vector<Bad_cell>& found_cells() const { return cells_; }
 
   /// Makes facets count as changed that are bad or haven't been looked at closely: see `Batch_refiner_3::settle()`.
   void set_changed()

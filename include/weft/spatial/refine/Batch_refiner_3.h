@@ -13,6 +13,7 @@
 #include <weft/spatial/refine/Acute_refinement_3.h>
 #include <weft/spatial/refine/Bad_elements_list_3.h>
 #include <weft/spatial/refine/Disk_mender_3.h>
+#include <weft/spatial/refine/Multiple_choice.h>
 #include <weft/spatial/refine/Steiner_batch_3.h>
 #include <weft/spatial/refine/Steiner_proposals_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
@@ -25,6 +26,7 @@
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace weft::internal {
@@ -164,82 +166,40 @@ private:
         });
   }
 
-  /// Multiple choice: always the worst of a few random ones.
   std::size_t choose_cells()
   {
     std::vector<Bad_cell>& cells = bad_.cells();
-    pool_.resize(cells.size());
-    std::size_t n = 0;
+    std::vector<std::size_t> pool;
     for (std::size_t i = 0; i < cells.size(); ++i)
-      if (!cells[i].is_stuck) pool_[n++] = static_cast<int>(i);
-    pool_.resize(n);
-    container_.clear();
+      if (!cells[i].is_stuck) pool.push_back(i);
+    choice_.begin(std::move(pool));
     std::size_t in_vain = 0;
     for (bool goes_on = true; goes_on;) {
-      const std::mt19937 before = random_;
-      pick_cells(Proposals::block_size);
-      if (picked_.empty()) break;
+      const std::vector<std::size_t>& picked = choice_.pick(
+          Proposals::block_size, [&](std::size_t i, std::size_t j) { return cells[i].ratio < cells[j].ratio; });
+      if (picked.empty()) break;
       proposals_.look_ahead(
-          picked_.size(), batch_.number(),
+          picked.size(), batch_.number(),
           [&](std::size_t k) {
-            const Cell_handle c = cells[picked_[k].cell].cell;
+            const Cell_handle c = cells[picked[k]].cell;
             return !is_near_claimed(c) && squared_radius(c) >= batch_.squared_floor() ? c : Cell_handle();
           },
           [&](std::size_t k, const auto& find, Zone& zone, std::size_t& candidates) {
             ++candidates;
-            return batch_.chooser().choose_by(cells[picked_[k].cell].cell, find, zone);
+            return batch_.chooser().choose_by(cells[picked[k]].cell, find, zone);
           });
-      for (std::size_t k = 0; k < picked_.size(); ++k) {
+      for (std::size_t k = 0; k < picked.size() && goes_on; ++k) {
         goes_on =
             !batch_.is_full() && !(batch_.size() > 0 && in_vain > in_vain_at_least + in_vain_for_each * batch_.size());
-        if (!goes_on) { // as if the others hadn't been picked
-          random_ = before;
-          random_.discard(k > 0 ? picked_[k - 1].draws : 0);
-          break;
-        }
-        Bad_cell& b = cells[picked_[k].cell];
-        if (is_near_claimed(b.cell)) continue;
+        if (!goes_on) choice_.end_after(k);
+        Bad_cell& b = cells[picked[k]];
+        if (!goes_on || is_near_claimed(b.cell)) continue;
         const Choice_3 choice = choose(b.cell, proposals_.find(k));
         b.is_stuck = choice == Choice_3::impossible;
         in_vain += choice == Choice_3::later;
       }
     }
     return cells.size();
-  }
-
-  /// A bad cell by its place in the list, and how many random numbers were drawn since the block began.
-  struct Picked
-  {
-    std::size_t cell;
-    unsigned long long draws;
-  };
-
-  /// The cells that come next; fewer, or none, if there are no more.
-  void pick_cells(std::size_t most)
-  {
-    const std::vector<Bad_cell>& cells = bad_.found_cells();
-    const auto is_better = [&cells](int i, int j) {
-      return cells[static_cast<std::size_t>(i)].ratio < cells[static_cast<std::size_t>(j)].ratio;
-    };
-    picked_.clear();
-    unsigned long long draws = 0;
-    while (picked_.size() < most) {
-      for (; container_.size() < choices && !pool_.empty(); ++draws) container_.push_back(take_random());
-      if (container_.empty()) return;
-      const auto worst = std::max_element(container_.begin(), container_.end(), is_better);
-      picked_.push_back({static_cast<std::size_t>(*worst), draws});
-      *worst = container_.back();
-      container_.pop_back();
-    }
-  }
-
-  int take_random()
-  {
-    const std::size_t i = random_() % pool_.size();
-    const int taken = pool_[i];
-    pool_[i] = pool_.back();
-    pool_.pop_back();
-    return taken;
   }
 
   /// A cell whose zone surely or very likely touches a claimed one; looking for the zone would tell no more.
@@ -347,8 +307,6 @@ private:
   /// thousands to insert a few; elsewhere it is mostly far fewer.
   static constexpr std::size_t in_vain_at_least = 200, in_vain_for_each = 100;
 
-  static constexpr std::size_t choices = 20; // Tournois 2009, sec. 3.2.1.4
-
   Restricted& mesh_;
   bool with_cells_;
   Measure measure_;
@@ -358,8 +316,7 @@ private:
   Proposals proposals_;
   std::mt19937 random_; ///< all random choices, in the order in which they are made
   Disk_mender_3<Restricted> disks_;
-  std::vector<int> pool_, container_;
-  std::vector<Picked> picked_; ///< from these, what comes next
+  Multiple_choice choice_{random_}; ///< of cells
 };
 
 } // namespace weft::internal

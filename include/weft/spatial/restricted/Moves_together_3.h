@@ -100,7 +100,9 @@ public:
     Move& m = moves_[k];
     star_.clear();
     mesh_.triangulation().incident_cells(vertex(m.id), std::back_inserter(star_));
-    forget(star_);
+    std::vector<std::size_t> changed;
+    note_others(star_, k, changed);
+    forget(star_, m);
     std::vector<Cell_handle> filling = mesh_.take_away(vertex(m.id));
     for (const Cell_handle c : m.rest) {
       if (c->is_classified()) mesh_.declassify(c);
@@ -108,11 +110,8 @@ public:
       filling.push_back(c);
     }
     find_conflict_zone(mesh_.triangulation(), m.origin, filling.front(), zone_);
-    std::vector<std::size_t> changed;
-    for (std::size_t j = 0; j < moves_.size(); ++j)
-      if (j != k && std::any_of(zone_.cells.begin(), zone_.cells.end(),
-                                [&](Cell_handle c) { return c->batch() == moves_[j].batch; }))
-        changed.push_back(j);
+    note_others(zone_.cells, k, changed);
+    forget(zone_.cells, m);
     m.cells = filling;
     insert(m);
     others_.insert(others_.end(), m.cells.begin(), m.cells.end());
@@ -137,15 +136,36 @@ private:
 
   bool is_made(Cell_handle c) const { return c->batch() >= first_batch_; }
 
-  /// Drops cells that are about to go from all lists.
-  void forget(const std::vector<Cell_handle>& going)
+  /// Adds the moves but one that have made some of these cells.
+  void note_others(const std::vector<Cell_handle>& cells, std::size_t but, std::vector<std::size_t>& others) const
+  {
+    for (const Cell_handle c : cells) {
+      if (c->batch() == moves_[but].batch || !is_made(c)) continue;
+      for (std::size_t j = 0; j < moves_.size(); ++j)
+        if (moves_[j].batch == c->batch() && std::find(others.begin(), others.end(), j) == others.end())
+          others.push_back(j);
+    }
+  }
+
+  /// Marks cells that are about to go.
+  int mark(const std::vector<Cell_handle>& cells)
   {
     const int batch = ++mesh_.batches_;
-    for (const Cell_handle c : going) c->set_batch(batch);
+    for (const Cell_handle c : cells) c->set_batch(batch);
+    return batch;
+  }
+
+  /// Drops cells that are about to go from all lists, if another move than m has made some of them.
+  void forget(const std::vector<Cell_handle>& going, const Move& m)
+  {
+    const bool is_alone =
+        std::all_of(going.begin(), going.end(), [&](Cell_handle c) { return c->batch() == m.batch || !is_made(c); });
+    if (is_alone) return;
+    const int batch = mark(going);
     drop(others_, batch);
-    for (Move& m : moves_) {
-      drop(m.cells, batch);
-      drop(m.rest, batch);
+    for (Move& other : moves_) {
+      drop(other.cells, batch);
+      drop(other.rest, batch);
     }
   }
 
@@ -158,7 +178,7 @@ private:
   /// Inserts the vertex at the point of the zone; `cells` are those that fill its former place.
   void insert(Move& m)
   {
-    forget(zone_.cells);
+    drop(m.cells, mark(zone_.cells));
     m.rest = m.cells;
     mesh_.insert(zone_, m.location, m.id);
     mesh_.new_cells_.clear();
