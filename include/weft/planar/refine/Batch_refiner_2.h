@@ -63,7 +63,7 @@ public:
     }
     if (max_cosine_ < 1 && bad_.empty())
       for (const Face_handle f : mesh_.faces())
-        if (is_too_sharp(f)) bad_.push_back({0, key(f), f, whole_face});
+        if (!mesh_.is_frozen(f) && is_too_sharp(f)) bad_.push_back({0, key(f), f, whole_face});
     std::sort(bad_.begin(), bad_.end());
     return bad_.size();
   }

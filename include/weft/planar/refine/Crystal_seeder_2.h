@@ -4,7 +4,8 @@
 // From a first point at a long constraint of each room (a part of the domain that no constraint divides) points
 // breed neighbors in six directions, one target size away, wherever there is space. Where sizes are uniform this is one
 // perfect lattice, and only the layer along the constraints is left to relaxation; where they vary, rows end in
-// dislocations, as they must. It follows the frontal point placement of Rebay (J. Comput. Phys. 106, 1993), inside out.
+// dislocations, as they must. Holes in a mesh are filled in the same way from their rims. It follows the frontal point
+// placement of Rebay (J. Comput. Phys. 106, 1993), inside out.
 //
 // Why: refinement by circumcenters leaves a glass, whose longest edges are 1.3 times the mean and so cost 1.7 times the
 // vertices.
@@ -46,7 +47,8 @@ public:
   /// \param spacing lattice spacing in parts of the target edge length.
   Crystal_seeder_2(Mesh& mesh, double spacing) : mesh_(mesh), spacing_(spacing), tree_(make_tree(mesh.bbox()))
   {
-    for (const Vertex_handle v : mesh.vertices()) occupy(v->point());
+    for (const Vertex_handle v : mesh.vertices())
+      if (!mesh.is_frozen(v)) occupy(v->point()); // holes are far from those that are
   }
 
   /// Grows and inserts the points.
@@ -55,9 +57,28 @@ public:
   template <class Go_on>
   bool run(std::size_t max_vertices, const Go_on& go_on)
   {
-    Triangulation& cdt = mesh_.triangulation();
-    directions_.assign(as_index(label_components(cdt)), 0);
+    directions_.assign(as_index(label_components(mesh_.triangulation())), 0);
     start_at_best_constraints();
+    return fill(max_vertices, go_on);
+  }
+
+  /// The same in holes of a mesh: parts that hang together of the domain's faces for which `is_open(face)`. Lattices
+  /// go on from the vertices around them.
+  template <class Is_open, class Go_on>
+  bool run_in_holes(const Is_open& is_open, std::size_t max_vertices, const Go_on& go_on)
+  {
+    directions_.assign(as_index(label_holes(is_open)), 0);
+    start_at_rims();
+    start_at_best_constraints();
+    return fill(max_vertices, go_on);
+  }
+
+private:
+  static constexpr int no_room = -1;
+
+  template <class Go_on>
+  bool fill(std::size_t max_vertices, const Go_on& go_on)
+  {
     // An empty lattice is as good as half of one.
     if (!grow(max_vertices, go_on) || !fill_voids(max_vertices, go_on)) return false;
     // Sorting can't be interrupted, so it goes by parts.
@@ -67,7 +88,6 @@ public:
     return true;
   }
 
-private:
   // A lattice point keeps this distance from others, and that from constraints, in parts of the spacing. Between 0.6
   // and 0.8 the first makes no difference to speak of; the second matters only where boundary vertices are far apart.
   static constexpr double clearance = 0.7, wall_clearance = 0.5;
@@ -133,6 +153,57 @@ private:
            near_edge_of(f->neighbor(2));
   }
 
+  /// Numbers holes as rooms; other faces are in none. Returns their number.
+  template <class Is_open>
+  int label_holes(const Is_open& is_open)
+  {
+    for (const Face_handle f : mesh_.triangulation().all_face_handles()) f->set_id(no_room);
+    std::vector<Face_handle> queue;
+    int holes = 0;
+    const auto add = [&](Face_handle f) {
+      if (f->id() != no_room || !f->is_in_domain() || !is_open(f)) return false;
+      f->set_id(holes);
+      queue.push_back(f);
+      return true;
+    };
+    for (const Face_handle first : mesh_.faces()) {
+      if (!add(first)) continue;
+      while (!queue.empty()) {
+        const Face_handle f = queue.back();
+        queue.pop_back();
+        for (int i = 0; i < 3; ++i)
+          if (!f->is_constrained(i)) add(f->neighbor(i));
+      }
+      ++holes;
+    }
+    return holes;
+  }
+
+  /// Vertices between a hole and the mesh around it breed in the direction of an edge of that mesh.
+  void start_at_rims()
+  {
+    has_germ_.assign(directions_.size(), false);
+    std::vector<char> is_listed(mesh_.vertices().size(), false);
+    for (const Face_handle f : mesh_.faces()) {
+      if (f->id() == no_room) continue;
+      for (int i = 0; i < 3; ++i) {
+        const Vertex_handle v = f->vertex(i);
+        if (v->constraint() != free_vertex || is_listed[as_index(v->id())]) continue;
+        auto face = mesh_.triangulation().incident_faces(v);
+        const auto done = face;
+        do {
+          if (face->id() != no_room) continue;
+          const Point &p = v->point(), &q = face->vertex(Triangulation::ccw(face->index(v)))->point();
+          const double direction = std::atan2(CGAL::to_double(q.y() - p.y()), CGAL::to_double(q.x() - p.x()));
+          is_listed[as_index(v->id())] = true;
+          if (!has_germ_[as_index(f->id())]) directions_[as_index(f->id())] = direction;
+          has_germ_[as_index(f->id())] = true;
+          front_.push_back({p, f, direction});
+        } while (!is_listed[as_index(v->id())] && ++face != done);
+      }
+    }
+  }
+
   /// A constrained edge where the lattice of a room may begin.
   struct Start
   {
@@ -150,13 +221,14 @@ private:
   WEFT_COLD void start_at_best_constraints()
   {
     const std::size_t rooms = directions_.size();
+    has_germ_.resize(rooms, false);
     std::vector<std::complex<double>> order(rooms); // sum of the directions, weighted by length
     std::vector<double> boundary(rooms, 0), most(rooms, 0);
     std::vector<std::array<double, 2>> middle(rooms, {0, 0});
     std::vector<Start> starts;
     for (const Face_handle f : mesh_.faces())
       for (int i = 0; i < 3; ++i) {
-        if (!f->is_constrained(i)) continue;
+        if (!f->is_constrained(i) || f->id() == no_room || has_germ_[as_index(f->id())]) continue;
         starts.push_back(start_at(f, i));
         const double length = std::sqrt(mesh_.squared_length(f, i));
         const Point m = middle_of(f, i);
@@ -255,6 +327,7 @@ private:
     std::vector<std::pair<double, std::size_t>> voids;
     for (std::size_t i = 0; i < mesh_.faces().size(); ++i) {
       const Face_handle f = mesh_.faces()[i];
+      if (f->id() == no_room) continue;
       const double r = CGAL::to_double(CGAL::squared_distance(center(f), f->vertex(0)->point()));
       voids.emplace_back(-r, i); // ties go to the earlier face
     }
@@ -286,6 +359,7 @@ private:
   double spacing_;
   Point_quadtree_2 tree_;
   std::vector<double> directions_; // by room
+  std::vector<char> has_germ_;     // by room: a rim
   std::vector<Point> points_;
   std::deque<Germ> front_;
   std::size_t germs_ = 0; // that have bred

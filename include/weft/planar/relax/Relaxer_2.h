@@ -65,7 +65,7 @@ public:
       targets.clear();
       double largest = 0;
       for (const Vertex_handle v : active) {
-        if (v->constraint() == fixed_vertex) continue;
+        if (v->constraint() == fixed_vertex || mesh_.is_frozen(v)) continue;
         const auto t = smoother.target(v);
         largest = (std::max)(largest, t.move_ratio);
         if (t.move_ratio < rest * effort.move_ratio) continue;
