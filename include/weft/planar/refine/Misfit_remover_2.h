@@ -79,14 +79,19 @@ public:
 
 private:
   // Spacing of a triangular lattice as dense as the vertices around, in parts of the target: over two rings, and over
-  // more, where that of new meshes varies less. Holes begin outside of the bounds of the first two lines, and reach as
-  // far as the third.
-  static constexpr double far_too_close = 0.68, far_too_wide = 0.98;
-  static constexpr double widely_too_close = 0.8, widely_too_wide = 0.94;
-  static constexpr double too_close = 0.8, too_wide = 0.92;
+  // more, where that of new meshes varies less. Holes begin outside of the bounds `far` and `wide`, and reach as far as
+  // those of `near`.
+  struct Bounds
+  {
+    double far_too_close, wide_too_close, near_too_close, piece_too_short;
+  };
+  static constexpr Bounds loose{0.62, 0.74, 0.77, 0.55};
+  static constexpr Bounds tight{0.7, 0.8, 0.82, 0.7}; // where too many vertices have gathered in the whole mesh
+  static constexpr double gathered = 0.82;            // spacing over the whole mesh
+  static constexpr double far_too_wide = 1, wide_too_wide = 0.97, near_too_wide = 0.95;
+  static constexpr double too_long = 1.12;      // of an edge in a hole
+  static constexpr double piece_too_long = 1.7; // of an edge on a constraint, over the target; over the size it is 1
   static constexpr int wide_rings = 4;
-  static constexpr double too_long = 1.12;                    // of an edge in a hole
-  static constexpr double short_piece = 0.75, long_piece = 1; // of edges on constraints
   static constexpr int moving_rings = 3;
 
   struct Piece // of a chain, that is spaced anew
@@ -140,12 +145,15 @@ private:
   void measure()
   {
     std::vector<Room> rooms(mesh_.vertices().size());
+    Room all;
     triangles_.reserve(mesh_.faces().size());
     for (const Face_handle f : mesh_.faces()) {
       triangles_.push_back({as_index(f->vertex(0)->id()), as_index(f->vertex(1)->id()), as_index(f->vertex(2)->id())});
       const double t = target(f), a = CGAL::to_double(mesh_.triangulation().triangle(f).area()) / (t * t);
       for (const std::size_t v : triangles_.back()) rooms[v].area += a, ++rooms[v].count;
+      all.area += a, ++all.count;
     }
+    bounds_ = spacing(all) < gathered ? tight : loose;
     spread(rooms);
     near_.reserve(rooms.size()), wide_.reserve(rooms.size());
     for (const Room& room : rooms) near_.push_back(spacing(room));
@@ -164,8 +172,8 @@ private:
       queue.push_back(v);
     };
     for (std::size_t v = 0; v < near_.size(); ++v)
-      if (near_[v] < far_too_close || near_[v] > far_too_wide || wide_[v] < widely_too_close ||
-          wide_[v] > widely_too_wide)
+      if (near_[v] < bounds_.far_too_close || near_[v] > far_too_wide || wide_[v] < bounds_.wide_too_close ||
+          wide_[v] > wide_too_wide)
         mark(mesh_.vertices()[v]);
     for (const Face_handle f : mesh_.faces())
       if (mesh_.ratio(f) > too_long)
@@ -173,7 +181,7 @@ private:
     for (std::size_t k = 0; k < queue.size(); ++k)
       for_each_neighbor(queue[k], [&](Vertex_handle w) {
         const double s = near_[as_index(w->id())];
-        if (s < too_close || s > too_wide) mark(w);
+        if (s < bounds_.near_too_close || s > near_too_wide) mark(w);
       });
     for (const Vertex_handle v : mesh_.vertices()) {
       if (!goes(v) || v->constraint() == free_vertex) continue;
@@ -189,12 +197,16 @@ private:
     const auto chains = chains_of_mesh(mesh_.triangulation());
     for (const auto& chain : chains) {
       std::vector<double> lengths;
-      for (std::size_t i = 1; i < chain.size(); ++i) lengths.push_back(metric_length(chain[i - 1], chain[i]));
+      std::vector<char> is_long;
+      for (std::size_t i = 1; i < chain.size(); ++i) {
+        lengths.push_back(metric_length(chain[i - 1], chain[i]));
+        is_long.push_back(lengths.back() > piece_too_long || is_too_long(chain[i - 1], chain[i]));
+      }
       const auto is_off = [&](std::size_t i) { // with its neighbors, since single edges vary
         const std::size_t first = i > 0 ? i - 1 : 0, last = (std::min)(i + 2, lengths.size());
         double sum = 0;
         for (std::size_t k = first; k < last; ++k) sum += lengths[k];
-        return lengths[i] > long_piece || sum < short_piece * static_cast<double>(last - first);
+        return is_long[i] || sum < bounds_.piece_too_short * static_cast<double>(last - first);
       };
       for (std::size_t i = 0; i < lengths.size();) {
         if (!is_off(i)) {
@@ -202,10 +214,10 @@ private:
           continue;
         }
         std::size_t last = i + 1;
-        while (last < lengths.size() && is_off(last)) ++last;
+        while (last < lengths.size() && (is_off(last) || (last + 1 < lengths.size() && is_off(last + 1)))) ++last;
         // An edge more on both sides, so that there is something to share.
         const std::size_t from = i > 0 ? i - 1 : 0, to = (std::min)(last + 1, lengths.size());
-        add_piece(chain, from, to, lengths, pieces);
+        add_piece(chain, from, to, is_long, pieces);
         i = to;
       }
     }
@@ -213,14 +225,14 @@ private:
   }
 
   void add_piece(const std::vector<Vertex_handle>& chain, std::size_t from, std::size_t to,
-                 const std::vector<double>& lengths, std::vector<Piece>& pieces)
+                 const std::vector<char>& is_long, std::vector<Piece>& pieces)
   {
     const Vertex_handle a = chain[from], b = chain[to];
     auto cuts = equal_metric_parts(
         a->point(), b->point(), [this](const Point& p) { return mesh_.target(p); }, spacing_, most_cuts);
-    const double longest = *std::max_element(lengths.begin() + static_cast<std::ptrdiff_t>(from),
-                                             lengths.begin() + static_cast<std::ptrdiff_t>(to));
-    if (cuts.size() + 1 == to - from && longest <= long_piece) return;
+    const auto first = is_long.begin() + static_cast<std::ptrdiff_t>(from),
+               last = is_long.begin() + static_cast<std::ptrdiff_t>(to);
+    if (cuts.size() + 1 == to - from && std::find(first, last, true) == last) return;
     Piece piece;
     piece.chain = as_index(a->constraint() >= 0   ? a->constraint()
                            : b->constraint() >= 0 ? b->constraint()
@@ -254,10 +266,17 @@ private:
     return CGAL::to_double((v->point() - ends.source->point()) * along) / CGAL::to_double(along * along);
   }
 
+  double length(Vertex_handle a, Vertex_handle b) const
+  {
+    return std::sqrt(CGAL::to_double(CGAL::squared_distance(a->point(), b->point())));
+  }
   double metric_length(Vertex_handle a, Vertex_handle b) const
   {
-    const double length = std::sqrt(CGAL::to_double(CGAL::squared_distance(a->point(), b->point())));
-    return length / mesh_.target(CGAL::midpoint(a->point(), b->point()));
+    return 2 * length(a, b) / (mesh_.target(a) + mesh_.target(b));
+  }
+  bool is_too_long(Vertex_handle a, Vertex_handle b) const
+  {
+    return length(a, b) > mesh_.size(CGAL::midpoint(a->point(), b->point()));
   }
 
   template <class Visit>
@@ -315,6 +334,7 @@ private:
 
   Mesh& mesh_;
   double spacing_;
+  Bounds bounds_ = loose;
   std::vector<std::array<std::size_t, 3>> triangles_; // vertices of faces before anything goes
   std::vector<double> near_, wide_;                   // spacings, by vertex
   std::vector<char> is_open_;                         // by vertex: at a hole
