@@ -17,6 +17,7 @@
 #include <weft/internal/boxes/Point_quadtree_2.h>
 #include <weft/internal/cold.h>
 #include <weft/planar/graph/mark_domain.h>
+#include <weft/planar/refine/mesh_holes_2.h>
 #include <weft/planar/triangulation/blind_triangle_2.h>
 
 #include <CGAL/number_utils.h>
@@ -67,15 +68,13 @@ public:
   template <class Is_open, class Go_on>
   bool run_in_holes(const Is_open& is_open, std::size_t max_vertices, const Go_on& go_on)
   {
-    directions_.assign(as_index(label_holes(is_open)), 0);
+    directions_.assign(as_index(label_holes_2(mesh_, is_open)), 0);
     start_at_rims();
     start_at_best_constraints();
     return fill(max_vertices, go_on);
   }
 
 private:
-  static constexpr int no_room = -1;
-
   template <class Go_on>
   bool fill(std::size_t max_vertices, const Go_on& go_on)
   {
@@ -153,54 +152,15 @@ private:
            near_edge_of(f->neighbor(2));
   }
 
-  /// Numbers holes as rooms; other faces are in none. Returns their number.
-  template <class Is_open>
-  int label_holes(const Is_open& is_open)
-  {
-    for (const Face_handle f : mesh_.triangulation().all_face_handles()) f->set_id(no_room);
-    std::vector<Face_handle> queue;
-    int holes = 0;
-    const auto add = [&](Face_handle f) {
-      if (f->id() != no_room || !f->is_in_domain() || !is_open(f)) return false;
-      f->set_id(holes);
-      queue.push_back(f);
-      return true;
-    };
-    for (const Face_handle first : mesh_.faces()) {
-      if (!add(first)) continue;
-      while (!queue.empty()) {
-        const Face_handle f = queue.back();
-        queue.pop_back();
-        for (int i = 0; i < 3; ++i)
-          if (!f->is_constrained(i)) add(f->neighbor(i));
-      }
-      ++holes;
-    }
-    return holes;
-  }
-
   /// Vertices between a hole and the mesh around it breed in the direction of an edge of that mesh.
   void start_at_rims()
   {
     has_germ_.assign(directions_.size(), false);
-    std::vector<char> is_listed(mesh_.vertices().size(), false);
-    for (const Face_handle f : mesh_.faces()) {
-      if (f->id() == no_room) continue;
-      for (int i = 0; i < 3; ++i) {
-        const Vertex_handle v = f->vertex(i);
-        if (v->constraint() != free_vertex || is_listed[as_index(v->id())]) continue;
-        auto face = mesh_.triangulation().incident_faces(v);
-        const auto done = face;
-        do {
-          if (face->id() != no_room) continue;
-          const Point &p = v->point(), &q = face->vertex(Triangulation::ccw(face->index(v)))->point();
-          const double direction = std::atan2(CGAL::to_double(q.y() - p.y()), CGAL::to_double(q.x() - p.x()));
-          is_listed[as_index(v->id())] = true;
-          if (!has_germ_[as_index(f->id())]) directions_[as_index(f->id())] = direction;
-          has_germ_[as_index(f->id())] = true;
-          front_.push_back({p, f, direction});
-        } while (!is_listed[as_index(v->id())] && ++face != done);
-      }
+    for (const auto& rim : rims_of_holes_2(mesh_)) {
+      const auto hole = as_index(rim.face->id());
+      if (!has_germ_[hole]) directions_[hole] = rim.direction;
+      has_germ_[hole] = true;
+      front_.push_back({rim.point, rim.face, rim.direction});
     }
   }
 
@@ -228,7 +188,7 @@ private:
     std::vector<Start> starts;
     for (const Face_handle f : mesh_.faces())
       for (int i = 0; i < 3; ++i) {
-        if (!f->is_constrained(i) || f->id() == no_room || has_germ_[as_index(f->id())]) continue;
+        if (!f->is_constrained(i) || f->id() == no_hole || has_germ_[as_index(f->id())]) continue;
         starts.push_back(start_at(f, i));
         const double length = std::sqrt(mesh_.squared_length(f, i));
         const Point m = middle_of(f, i);
@@ -327,7 +287,7 @@ private:
     std::vector<std::pair<double, std::size_t>> voids;
     for (std::size_t i = 0; i < mesh_.faces().size(); ++i) {
       const Face_handle f = mesh_.faces()[i];
-      if (f->id() == no_room) continue;
+      if (f->id() == no_hole) continue;
       const double r = CGAL::to_double(CGAL::squared_distance(center(f), f->vertex(0)->point()));
       voids.emplace_back(-r, i); // ties go to the earlier face
     }

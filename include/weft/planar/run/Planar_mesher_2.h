@@ -20,6 +20,7 @@
 #include <weft/planar/relax/Relaxation_guard_2.h>
 #include <weft/planar/run/Angle_goal_2.h>
 #include <weft/planar/run/Mesh_optimiser_2.h>
+#include <weft/planar/working/Frozen_vertices_2.h>
 #include <weft/planar/working/Working_mesh_2.h>
 #include <weft/report.h>
 
@@ -174,7 +175,7 @@ private:
 
   void relax_all(double move_ratio, int quadrature)
   {
-    relax(mesh_.movable_vertices(), {move_ratio, quadrature, options_.max_sweeps});
+    relax(movable_vertices_2(mesh_), {move_ratio, quadrature, options_.max_sweeps});
   }
 
   void relax(std::vector<Vertex_handle> active, const typename Mesh_optimiser_2<Mesh>::Effort& effort)
@@ -186,11 +187,11 @@ private:
   /// that held before doesn't hold afterwards. When all hold, angles are mended, too, as far as that is cheap.
   WEFT_COLD void interleave()
   {
-    optimiser_.allow_insertions(optimiser_.least_insertions + mesh_.movable_vertices().size() / 50);
+    optimiser_.allow_insertions(optimiser_.least_insertions + movable_vertices_2(mesh_).size() / 50);
     for (int round = 0; round < most_rounds; ++round) {
       refine_and_polish(round == 0);
       if (is_stopped()) break;
-      bad_ = refiner_.find_bad();
+      bad_ = refiner_.find_bad_everywhere();
       if (bad_ > 0 || begin_mending()) continue;
       if (options_.polish) timed(Stage::polishing, [this] { hop(); });
       goal_.judge_as_asked();
@@ -218,7 +219,7 @@ private:
   void find_bad()
   {
     refiner_.set_min_angle(goal_.degrees());
-    bad_ = refiner_.find_bad();
+    bad_ = refiner_.find_bad_everywhere();
   }
 
   /// Has refinement look for angles that nobody asked for, once. Returns whether there is something to do.

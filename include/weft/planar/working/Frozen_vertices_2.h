@@ -43,6 +43,16 @@ private:
   std::vector<char> flags_;
 };
 
+/// The vertices of a Working_mesh_2 that aren't frozen.
+template <class Mesh>
+std::vector<typename Mesh::Vertex_handle> movable_vertices_2(const Mesh& mesh)
+{
+  std::vector<typename Mesh::Vertex_handle> result;
+  for (const auto v : mesh.vertices())
+    if (!mesh.is_frozen(v)) result.push_back(v);
+  return result;
+}
+
 } // namespace weft::internal
 
 #endif // WEFT_PLANAR_WORKING_FROZEN_VERTICES_2_H

@@ -147,20 +147,12 @@ public:
 
   bool is_frame(Vertex_handle v) const { return frame_.contains(v); }
 
-  /// What improves meshes leaves frozen vertices alone, and faces with no others; refinement doesn't.
+  /// What improves meshes leaves frozen vertices alone, and faces with no others.
   Frozen_vertices_2& frozen() { return frozen_; }
   bool is_frozen(Vertex_handle v) const { return frozen_.contains(v->id()); }
   bool is_frozen(Face_handle f) const
   {
     return is_frozen(f->vertex(0)) && is_frozen(f->vertex(1)) && is_frozen(f->vertex(2));
-  }
-  /// All that aren't.
-  std::vector<Vertex_handle> movable_vertices() const
-  {
-    std::vector<Vertex_handle> result;
-    for (const Vertex_handle v : vertices_)
-      if (!is_frozen(v)) result.push_back(v);
-    return result;
   }
 
   /// Largest edge length that the sizing field admits at a point.
