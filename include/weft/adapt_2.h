@@ -18,12 +18,11 @@
 
 #include <weft/make_mesh_2.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
+#include <weft/planar/run/require_structure_2.h>
 #include <weft/planar/run/Triangulated_mesh_2.h>
+#include <weft/report.h>
 
-#include <cstdlib>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace weft {
 
@@ -55,7 +54,7 @@ struct Has_polylines_2
 /// \throws Option_error for options out of range, and when the sizing field returns anything but positive numbers.
 /// \throws Domain_error when there is no domain.
 /// On every way out, exceptions included, the triangulation is valid and constrained Delaunay.
-template <class Cdt, class Sizing>
+template <class Cdt, class Sizing, std::enable_if_t<!internal::Is_triangle_mesh_2<Cdt>::value, int> = 0>
 Mesh_report_2 adapt_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options = Mesh_options_2())
 {
   static_assert(

@@ -44,13 +44,6 @@ struct Improve_result_2
 
 namespace internal {
 
-template <class Mesh>
-struct Is_triangle_mesh_2 : std::false_type
-{};
-template <class K>
-struct Is_triangle_mesh_2<Triangle_mesh_2<K>> : std::true_type
-{};
-
 /// What is returned after a complaint.
 struct No_result_2
 {

@@ -9,9 +9,17 @@
 #include <weft/planar/mesh/assemble_mesh_2.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
 
+#include <type_traits>
 #include <utility>
 
 namespace weft::internal {
+
+template <class Mesh>
+struct Is_triangle_mesh_2 : std::false_type
+{};
+template <class K>
+struct Is_triangle_mesh_2<Triangle_mesh_2<K>> : std::true_type
+{};
 
 /// \throws Domain_error if the arrays aren't those of a mesh.
 template <class K>
