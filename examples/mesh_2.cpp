@@ -34,7 +34,8 @@ using mesh_2_program::Domain;
 // ---- What is asked for
 
 const std::string before_options =
-    "usage: mesh_2 INPUT [--size [MARK:]S]... [--lfs K] [--min-size S] [--min-angle DEG] [--output FILE]...\n"
+    "usage: mesh_2 INPUT [--size [MARK:]S]... [--size-field FILE] [--gradation K] [--lfs K] [--min-size S]\n"
+    "              [--min-angle DEG] [--output FILE]...\n"
     "              [--voronoi FILE.svg] [--histogram FILE.svg] [--report FILE.json] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--tolerance T] [--split-crossings] [--quiet]\n\n"
     "Meshes the domain that a planar straight line graph encloses with large, well-shaped triangles. INPUT is a .poly "
@@ -64,6 +65,11 @@ void add_options(command_line::Options& options, Request& request)
   options.texts("--size", "[MARK:]S", request.size_texts,
                 "largest edge length (default 5% without --lfs); after a mark, in regions with that mark\nonly, as in "
                 "2:0.1. A region's bound on areas in a .poly file counts, too");
+  options.text("--size-field", "FILE", sizes.field,
+               "sizes in the plane, at most S if --size gives one: at the vertices of a .vtu, .msh, or .mesh with its "
+               ".sol;\ngraded");
+  options.positive("--gradation", "K", sizes.gradation,
+                   "growth of the file's sizes per unit of distance (default 0.5)");
   options.positive("--lfs", "K", sizes.lfs,
                    "edge lengths from the local feature size of the input, growing by at most K\nper unit of distance");
   options.length("--min-size", "S", false, sizes.min_size, "smallest edge length that --lfs asks for");
@@ -104,6 +110,14 @@ void check(const command_line::Options& options, Request& request)
   const mesh_2_program::Sizes& sizes = request.sizes;
   if (!request.size_texts.empty() && sizes.lfs > 0) throw Error("--size and --lfs exclude each other");
   if (sizes.min_size.value > 0 && sizes.lfs == 0) throw Error("--min-size goes with --lfs only");
+  if (!sizes.field.empty() && sizes.lfs > 0) throw Error("--size-field and --lfs exclude each other");
+  if (!sizes.field.empty() && !sizes.size_of_mark.empty())
+    throw Error("--size-field goes with a --size without a mark only");
+  if (sizes.field.empty() && options.has("--gradation")) throw Error("--gradation goes with --size-field only");
+  request.sizes.is_bounded = !request.size_texts.empty();
+  if (!sizes.field.empty())
+    request.size_text += (request.size_text.empty() ? "sizes of " : ", sizes of ") +
+                         std::filesystem::path(sizes.field).filename().string();
   if (sizes.lfs > 0) request.size_text = "lfs " + options.value("--lfs");
   if (request.size_text.empty()) request.size_text = "size 5% of the diagonal, by default";
   if (options.has("--tolerance")) request.input_options.tolerance = request.tolerance;

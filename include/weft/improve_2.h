@@ -17,12 +17,12 @@
 #include <weft/errors.h>
 #include <weft/internal/Answers.h>
 #include <weft/internal/run/Run.h>
-#include <weft/planar/mesh/assemble_mesh_2.h>
 #include <weft/planar/mesh/quality_2.h>
 #include <weft/planar/mesh/Scaled_triangle_2.h>
 #include <weft/planar/mesh/Triangle_mesh_2.h>
 #include <weft/planar/run/Improve_options_2.h>
 #include <weft/planar/run/Mesh_improver_2.h>
+#include <weft/planar/run/require_structure_2.h>
 
 #include <CGAL/Kernel/global_functions.h>
 
@@ -44,13 +44,6 @@ struct Improve_result_2
 
 namespace internal {
 
-template <class Mesh>
-struct Is_triangle_mesh_2 : std::false_type
-{};
-template <class K>
-struct Is_triangle_mesh_2<Triangle_mesh_2<K>> : std::true_type
-{};
-
 /// What is returned after a complaint.
 struct No_result_2
 {
@@ -65,24 +58,6 @@ std::size_t count_inverted(const Triangle_mesh_2<K>& mesh)
   for (const auto& t : mesh.triangles)
     n += CGAL::orientation(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) != CGAL::LEFT_TURN;
   return n;
-}
-
-/// \throws Domain_error if the arrays aren't those of a mesh.
-template <class K>
-void require_structure(const Triangle_mesh_2<K>& mesh)
-{
-  Element_soup_2<K> soup;
-  soup.points = mesh.points;
-  soup.triangles = mesh.triangles;
-  soup.triangle_tags = mesh.regions;
-  soup.edges = mesh.edges;
-  soup.edge_tags = mesh.edge_tags;
-  soup.corners = mesh.corners;
-  const Triangle_mesh_2<K> again = assemble_mesh_2(std::move(soup)).mesh;
-  if (again.points.size() != mesh.points.size() || again.triangles != mesh.triangles || again.regions != mesh.regions ||
-      again.edges.size() != mesh.edges.size() || again.edge_tags != mesh.edge_tags)
-    throw Domain_error("the arrays aren't those of a mesh; assemble_mesh_2() makes one of points and triangles", {},
-                       {});
 }
 
 /// The course of `improve_2()`.

@@ -51,7 +51,8 @@ Mesh_report_2 make_mesh_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& 
     options.check();
     return internal::keep_layers_2(cdt, [&](auto& triangulation) {
       using Triangulation = std::remove_reference_t<decltype(triangulation)>;
-      return internal::Planar_mesher_2<Triangulation, Sizing>(triangulation, sizing, options, false).mesh();
+      using Mesher = internal::Planar_mesher_2<Triangulation, Sizing>;
+      return Mesher(triangulation, sizing, options, Mesher::Mesh::Given::input).mesh();
     });
   } else {
     internal::Planar_requirements_2<Cdt, Sizing>::complain();
@@ -72,7 +73,8 @@ Mesh_report_2 relax_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& opti
     options.check();
     return internal::keep_layers_2(cdt, [&](auto& triangulation) {
       using Triangulation = std::remove_reference_t<decltype(triangulation)>;
-      return internal::Planar_mesher_2<Triangulation, Sizing>(triangulation, sizing, options, true).relax();
+      using Mesher = internal::Planar_mesher_2<Triangulation, Sizing>;
+      return Mesher(triangulation, sizing, options, Mesher::Mesh::Given::relaxable).relax();
     });
   } else {
     internal::Planar_requirements_2<Cdt, Sizing>::complain();

@@ -120,6 +120,7 @@ private:
     const bool has_areas =
         std::any_of(tags_.regions.begin(), tags_.regions.end(), [](const auto& region) { return region.max_area > 0; });
     const double size = sizes.size.in(diagonal_);
+    if (!sizes.field.empty()) return field_sizing(sizes.field, sizes.gradation, sizes.is_bounded ? size : HUGE_VAL);
     if (sizes.size_of_mark.empty() && !has_areas) return uniform_sizing(size);
     std::map<int, double> size_of_mark;
     for (const auto& [mark, length] : sizes.size_of_mark) size_of_mark[mark] = length.in(diagonal_);

@@ -21,13 +21,17 @@
 
 namespace mesh_2_program {
 
-/// Edge lengths that are asked for: by the local feature size if `lfs` isn't 0, else at most `size`.
+/// Edge lengths that are asked for: by the local feature size if `lfs` isn't 0, else at most `size`, and by a file if
+/// one is named.
 struct Sizes
 {
   command_line::Length size{5, true};
   std::map<int, command_line::Length> size_of_mark; ///< instead, in regions with a mark
   double lfs = 0;                                   ///< growth per unit of distance
   command_line::Length min_size;
+  std::string field;       ///< name of the file
+  bool is_bounded = false; ///< whether its sizes are at most `size`
+  double gradation = 0.5;  ///< growth of its sizes per unit of distance
 };
 
 /// How a graph is read.
@@ -48,7 +52,8 @@ public:
 
   /// \returns the report, with notes about the input.
   /// \param keeps_input whether `reference_angles()` is going to be called.
-  /// \throws weft::Domain_error for sizes that the input doesn't allow.
+  /// \throws weft::Domain_error for sizes that the input doesn't allow, weft::File_error for a field that can't be
+  /// read.
   virtual weft::Mesh_report_2 mesh(const Sizes& sizes, const weft::Mesh_options_2& options, bool keeps_input) = 0;
 
   virtual weft::Angle_histogram angles() const = 0;

@@ -4,10 +4,12 @@
 
 #include "../../cgal_refinement.h"
 
+#include <weft/IO/read_sizing_2.h>
 #include <weft/make_mesh_2.h>
 #include <weft/planar/sizing/Lfs_sizing_2.h>
 #include <weft/planar/sizing/Region_sizing_2.h>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -56,6 +58,14 @@ std::unique_ptr<Sizing> region_sizing(const Cdt& cdt, const weft::Mesh_tags_2<K>
                                       const std::map<int, double>& size_of_mark)
 {
   return std::make_unique<Sizing_by<Varying_field>>(weft::Region_sizing_2<Cdt>(cdt, tags, size, size_of_mark));
+}
+
+std::unique_ptr<Sizing> field_sizing(const std::string& filename, double gradation, double size)
+{
+  auto background = weft::IO::read_sizing_2<K>(filename);
+  background.limit_gradient(gradation);
+  return std::make_unique<Sizing_by<Varying_field>>(
+      [background, size](const K::Point_2& p) { return std::min(size, background(p)); });
 }
 
 } // namespace mesh_2_program

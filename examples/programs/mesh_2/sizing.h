@@ -18,6 +18,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
 
 namespace mesh_2_program {
 
@@ -42,6 +43,10 @@ std::unique_ptr<Sizing> lfs_sizing(const Pslg& graph, double k, double min_size)
 /// \throws weft::Option_error for a mark that no region has.
 std::unique_ptr<Sizing> region_sizing(const Cdt& cdt, const weft::Mesh_tags_2<K>& tags, double size,
                                       const std::map<int, double>& size_of_mark);
+
+/// Sizes at the vertices of a mesh file, limited to that growth per unit of distance, and at most `size`.
+/// \throws weft::File_error if it can't be read.
+std::unique_ptr<Sizing> field_sizing(const std::string& filename, double gradation, double size);
 
 } // namespace mesh_2_program
 

@@ -8,6 +8,7 @@
 #define WEFT_PLANAR_GRAPH_INPUT_FACES_2_H
 
 #include <weft/internal/as_index.h>
+#include <weft/planar/graph/chains_of_mesh_2.h>
 #include <weft/planar/graph/Constraint_markers.h>
 #include <weft/planar/graph/mark_domain.h>
 
@@ -17,10 +18,21 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace weft {
+namespace internal {
+
+template <class Vertex, class = void>
+struct Knows_constraints : std::false_type
+{};
+template <class Vertex>
+struct Knows_constraints<Vertex, std::void_t<decltype(std::declval<const Vertex&>().constraint())>> : std::true_type
+{};
+
+} // namespace internal
 
 /// The faces of a triangulation as they are when this is made. `make_mesh_2()` and `relax_2()` use it by themselves for
 /// faces with CGAL's `info()` (Triangulation_face_base_with_info_2); for other data:
@@ -37,15 +49,15 @@ public:
   using Face_handle = typename Cdt::Face_handle;
 
   /// O(n log n).
-  explicit Input_faces_2(const Cdt& cdt) : input_(cdt), components_(internal::face_components(input_))
+  /// \param meshed whether the triangulation is a mesh whose Steiner vertices on constraints, those that have
+  ///   `constraint()` from 0 on, may move and go, as `adapt_2()` has it; otherwise every vertex has to stay.
+  explicit Input_faces_2(const Cdt& cdt, bool meshed = false)
+      : input_(cdt), components_(internal::face_components(input_))
   {
-    int number = 0;
-    for (auto edge = input_.constrained_edges_begin(); edge != input_.constrained_edges_end(); ++edge, ++number) {
-      const auto [face, i] = *edge;
-      const auto a = face->vertex(Cdt::ccw(i)), b = face->vertex(Cdt::cw(i));
-      edges_.add(a->point(), b->point(), number);
-      sides_.push_back({a->point(), b->point(), {components_.number[face], components_.number[face->neighbor(i)]}});
-    }
+    if (meshed)
+      list_chains();
+    else
+      list_edges();
   }
 
   /// Calls `function(input_face, face)` for each finite face of a mesh of the input. The input's face holds the
@@ -71,12 +83,40 @@ public:
 
 private:
   using Point = typename Cdt::Point;
+  using Vertex_handle = typename Cdt::Vertex_handle;
 
   struct Sides
   {
     Point from, to;
     std::array<int, 2> component; ///< to the left, to the right
   };
+
+  void list_edges()
+  {
+    for (auto edge = input_.constrained_edges_begin(); edge != input_.constrained_edges_end(); ++edge) {
+      const auto [face, i] = *edge;
+      list(face, i, face->vertex(Cdt::ccw(i)), face->vertex(Cdt::cw(i)));
+    }
+  }
+
+  void list_chains()
+  {
+    if constexpr (internal::Knows_constraints<typename Cdt::Vertex>::value)
+      for (const auto& chain : internal::chains_of_mesh(input_)) {
+        Face_handle face;
+        int i;
+        if (!input_.is_edge(chain[0], chain[1], face, i)) continue;
+        const bool forward = face->vertex(Cdt::ccw(i)) == chain[0];
+        list(face, i, forward ? chain.front() : chain.back(), forward ? chain.back() : chain.front());
+      }
+  }
+
+  /// \param a,b ends of what edge i of the face is a part of, with the face to the left of a to b.
+  void list(Face_handle face, int i, Vertex_handle a, Vertex_handle b)
+  {
+    edges_.add(a->point(), b->point(), static_cast<int>(sides_.size()));
+    sides_.push_back({a->point(), b->point(), {components_.number[face], components_.number[face->neighbor(i)]}});
+  }
 
   /// Component of the input for each of the mesh: the longest of the constrained edges around it tells.
   std::vector<int> match(const Cdt& mesh, const internal::Face_components<Cdt>& components) const

@@ -213,6 +213,8 @@ private:
     return result;
   }
 
+  bool is_free(Vertex_handle v) const { return v->constraint() == free_vertex && !mesh_.is_frozen(v); }
+
   /// Moves the free ones of some vertices at random by parts of their target sizes.
   void shake(const std::vector<Vertex_handle>& vertices)
   {
@@ -221,7 +223,7 @@ private:
     std::vector<Point> targets;
     for (const Vertex_handle v : vertices) {
       const double d = part * mesh_.target(v), dx = d * (2 * uniform() - 1), dy = d * (2 * uniform() - 1);
-      if (v->constraint() != free_vertex) continue;
+      if (!is_free(v)) continue;
       moving.push_back(v);
       targets.emplace_back(CGAL::to_double(v->point().x()) + dx, CGAL::to_double(v->point().y()) + dy);
     }
@@ -234,7 +236,7 @@ private:
   {
     std::vector<Vertex_handle> free;
     for (const Vertex_handle v : trial.core)
-      if (v->constraint() == free_vertex) free.push_back(v);
+      if (is_free(v)) free.push_back(v);
     if (free.empty()) return;
     const Vertex_handle v = free[below(free.size())];
     const int id = v->id();

@@ -93,7 +93,7 @@ private:
     const std::uint64_t key = key_of_surroundings(f);
     if (failures_.contains(key)) return false;
     for (int i = 0; i < 3; ++i)
-      if (polisher_.find(t, f) && mesh_.vertices()[as_index(t[as_index(i)])]->constraint() != fixed_vertex &&
+      if (polisher_.find(t, f) && may_go(mesh_.vertices()[as_index(t[as_index(i)])]) &&
           try_removal(f, t[as_index(i)])) {
         ++insertions_left_;
         return true;
@@ -149,6 +149,8 @@ private:
     region.put_back();
     return false;
   }
+
+  bool may_go(Vertex_handle v) const { return v->constraint() != fixed_vertex && !mesh_.is_frozen(v); }
 
   bool try_removal(Face_handle f, int id)
   {

@@ -111,7 +111,7 @@ public:
   bool improve(Vertex_handle v)
   {
     hopeless_.resize(mesh_.vertices().size(), 0);
-    if (v->constraint() == fixed_vertex || hopeless_[as_index(v->id())]) return false;
+    if (v->constraint() == fixed_vertex || mesh_.is_frozen(v) || hopeless_[as_index(v->id())]) return false;
     hopeless_[as_index(v->id())] = 1;
     const std::uint64_t key = key_of_star(v);
     if (failures_.contains(key)) return false;
@@ -181,8 +181,10 @@ private:
                                                                      double bound) const
   {
     std::vector<std::pair<double, std::size_t>> worst;
-    for (std::size_t i = 0; i < faces.size(); ++i)
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (mesh_.is_frozen(faces[i])) continue;
       if (const double b = cost(faces[i]); b > bound) worst.emplace_back(-b, i);
+    }
     std::sort(worst.begin(), worst.end());
     return worst;
   }

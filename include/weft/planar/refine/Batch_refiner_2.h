@@ -50,25 +50,14 @@ public:
 
   void set_min_angle(double degrees) { max_cosine_ = degrees > 0 ? std::cos(degrees * std::acos(-1.0) / 180) : 2; }
 
-  /// Counts elements that violate a criterion and remembers them, worst first, for `refine()`.
-  std::size_t find_bad()
-  {
-    bad_.clear();
-    largest_ratio_ = 0;
-    oversized_ = 0;
-    for (const Face_handle f : mesh_.faces()) {
-      for (int i = 0; i < 3; ++i)
-        if (f->is_constrained(i) && represents_edge(f, i)) consider(mesh_.edge_ratio(f, i), f, i);
-      if (!is_surely_good(f)) consider(mesh_.ratio(f), f, whole_face);
-    }
-    if (max_cosine_ < 1 && bad_.empty())
-      for (const Face_handle f : mesh_.faces())
-        if (is_too_sharp(f)) bad_.push_back({0, key(f), f, whole_face});
-    std::sort(bad_.begin(), bad_.end());
-    return bad_.size();
-  }
+  /// Counts elements that violate a criterion and remembers them, worst first, for `refine()`. Frozen faces aren't
+  /// looked at: they were good when they were frozen.
+  std::size_t find_bad() { return find_bad(false); }
 
-  /// Largest sizing ratio seen by `find_bad()`.
+  /// The same, but looks at frozen faces, too, which flips may have made: thaws those that are too large.
+  std::size_t find_bad_everywhere() { return find_bad(true); }
+
+  /// Largest sizing ratio seen by the last of these.
   double largest_ratio() const { return largest_ratio_; }
 
   /// Triangles and constrained edges that `find_bad()` found too large.
@@ -149,6 +138,26 @@ private:
     std::array<Vertex_handle, 3> vertex;
     int edge;
   };
+
+  std::size_t find_bad(bool everywhere)
+  {
+    bad_.clear();
+    largest_ratio_ = 0;
+    oversized_ = 0;
+    for (const Face_handle f : mesh_.faces()) {
+      if (!everywhere && mesh_.is_frozen(f)) continue;
+      for (int i = 0; i < 3; ++i)
+        if (f->is_constrained(i) && represents_edge(f, i)) consider(mesh_.edge_ratio(f, i), f, i);
+      if (!is_surely_good(f)) consider(mesh_.ratio(f), f, whole_face);
+    }
+    for (const Bad& b : bad_)
+      for (int i = 0; everywhere && i < 3; ++i) mesh_.frozen().thaw(as_index(b.face->vertex(i)->id()));
+    if (max_cosine_ < 1 && bad_.empty())
+      for (const Face_handle f : mesh_.faces())
+        if (!mesh_.is_frozen(f) && is_too_sharp(f)) bad_.push_back({0, key(f), f, whole_face});
+    std::sort(bad_.begin(), bad_.end());
+    return bad_.size();
+  }
 
   static Key key(Face_handle f)
   {

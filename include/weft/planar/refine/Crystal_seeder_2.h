@@ -4,7 +4,8 @@
 // From a first point at a long constraint of each room (a part of the domain that no constraint divides) points
 // breed neighbors in six directions, one target size away, wherever there is space. Where sizes are uniform this is one
 // perfect lattice, and only the layer along the constraints is left to relaxation; where they vary, rows end in
-// dislocations, as they must. It follows the frontal point placement of Rebay (J. Comput. Phys. 106, 1993), inside out.
+// dislocations, as they must. Holes in a mesh are filled in the same way from their rims. It follows the frontal point
+// placement of Rebay (J. Comput. Phys. 106, 1993), inside out.
 //
 // Why: refinement by circumcenters leaves a glass, whose longest edges are 1.3 times the mean and so cost 1.7 times the
 // vertices.
@@ -16,6 +17,7 @@
 #include <weft/internal/boxes/Point_quadtree_2.h>
 #include <weft/internal/cold.h>
 #include <weft/planar/graph/mark_domain.h>
+#include <weft/planar/refine/mesh_holes_2.h>
 #include <weft/planar/triangulation/blind_triangle_2.h>
 
 #include <CGAL/number_utils.h>
@@ -46,7 +48,8 @@ public:
   /// \param spacing lattice spacing in parts of the target edge length.
   Crystal_seeder_2(Mesh& mesh, double spacing) : mesh_(mesh), spacing_(spacing), tree_(make_tree(mesh.bbox()))
   {
-    for (const Vertex_handle v : mesh.vertices()) occupy(v->point());
+    for (const Vertex_handle v : mesh.vertices())
+      if (!mesh.is_frozen(v)) occupy(v->point()); // holes are far from those that are
   }
 
   /// Grows and inserts the points.
@@ -55,9 +58,26 @@ public:
   template <class Go_on>
   bool run(std::size_t max_vertices, const Go_on& go_on)
   {
-    Triangulation& cdt = mesh_.triangulation();
-    directions_.assign(as_index(label_components(cdt)), 0);
+    directions_.assign(as_index(label_components(mesh_.triangulation())), 0);
     start_at_best_constraints();
+    return fill(max_vertices, go_on);
+  }
+
+  /// The same in holes of a mesh: parts that hang together of the domain's faces for which `is_open(face)`. Lattices
+  /// go on from the vertices around them.
+  template <class Is_open, class Go_on>
+  bool run_in_holes(const Is_open& is_open, std::size_t max_vertices, const Go_on& go_on)
+  {
+    directions_.assign(as_index(label_holes_2(mesh_, is_open)), 0);
+    start_at_rims();
+    start_at_best_constraints();
+    return fill(max_vertices, go_on);
+  }
+
+private:
+  template <class Go_on>
+  bool fill(std::size_t max_vertices, const Go_on& go_on)
+  {
     // An empty lattice is as good as half of one.
     if (!grow(max_vertices, go_on) || !fill_voids(max_vertices, go_on)) return false;
     // Sorting can't be interrupted, so it goes by parts.
@@ -67,7 +87,6 @@ public:
     return true;
   }
 
-private:
   // A lattice point keeps this distance from others, and that from constraints, in parts of the spacing. Between 0.6
   // and 0.8 the first makes no difference to speak of; the second matters only where boundary vertices are far apart.
   static constexpr double clearance = 0.7, wall_clearance = 0.5;
@@ -133,6 +152,18 @@ private:
            near_edge_of(f->neighbor(2));
   }
 
+  /// Vertices between a hole and the mesh around it breed in the direction of an edge of that mesh.
+  void start_at_rims()
+  {
+    has_germ_.assign(directions_.size(), false);
+    for (const auto& rim : rims_of_holes_2(mesh_)) {
+      const auto hole = as_index(rim.face->id());
+      if (!has_germ_[hole]) directions_[hole] = rim.direction;
+      has_germ_[hole] = true;
+      front_.push_back({rim.point, rim.face, rim.direction});
+    }
+  }
+
   /// A constrained edge where the lattice of a room may begin.
   struct Start
   {
@@ -150,13 +181,14 @@ private:
   WEFT_COLD void start_at_best_constraints()
   {
     const std::size_t rooms = directions_.size();
+    has_germ_.resize(rooms, false);
     std::vector<std::complex<double>> order(rooms); // sum of the directions, weighted by length
     std::vector<double> boundary(rooms, 0), most(rooms, 0);
     std::vector<std::array<double, 2>> middle(rooms, {0, 0});
     std::vector<Start> starts;
     for (const Face_handle f : mesh_.faces())
       for (int i = 0; i < 3; ++i) {
-        if (!f->is_constrained(i)) continue;
+        if (!f->is_constrained(i) || f->id() == no_hole || has_germ_[as_index(f->id())]) continue;
         starts.push_back(start_at(f, i));
         const double length = std::sqrt(mesh_.squared_length(f, i));
         const Point m = middle_of(f, i);
@@ -255,6 +287,7 @@ private:
     std::vector<std::pair<double, std::size_t>> voids;
     for (std::size_t i = 0; i < mesh_.faces().size(); ++i) {
       const Face_handle f = mesh_.faces()[i];
+      if (f->id() == no_hole) continue;
       const double r = CGAL::to_double(CGAL::squared_distance(center(f), f->vertex(0)->point()));
       voids.emplace_back(-r, i); // ties go to the earlier face
     }
@@ -286,6 +319,7 @@ private:
   double spacing_;
   Point_quadtree_2 tree_;
   std::vector<double> directions_; // by room
+  std::vector<char> has_germ_;     // by room: a rim
   std::vector<Point> points_;
   std::deque<Germ> front_;
   std::size_t germs_ = 0; // that have bred

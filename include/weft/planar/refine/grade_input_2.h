@@ -10,12 +10,15 @@
 
 #include <weft/internal/as_index.h>
 #include <weft/internal/cold.h>
+#include <weft/planar/graph/chains_of_mesh_2.h>
+#include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/refine/sample_constraints_2.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/triangulation/remove_hull_vertex_2.h>
 
 #include <CGAL/Kernel/global_functions.h>
 #include <CGAL/number_utils.h>
+#include <CGAL/Unique_hash_map.h>
 
 #include <cmath>
 #include <cstddef>
@@ -104,6 +107,62 @@ WEFT_COLD bool grade_input_2(Mesh& mesh, const Sizing& sizing, std::size_t max_v
     if (v->id() >= static_cast<int>(mesh.vertices().size())) frame.push_back(v);
   for (const auto v : frame) remove_hull_vertex(copy, v);
   Mesh scratch(copy, sizing);
+  if (!sample_constraints_2(scratch, 1, max_vertices, go_on)) return false;
+  scratch.renumber();
+  set_grading_2(mesh, scratch);
+  return true;
+}
+
+/// A triangulation of the input of a mesh made with `Given::meshed`: its input vertices, and its chains as single
+/// edges. \returns whether there is one; chains that aren't straight may cross.
+template <class Mesh>
+WEFT_COLD bool bare_input_2(const Mesh& mesh, typename Mesh::Triangulation& bare)
+{
+  using Triangulation = typename Mesh::Triangulation;
+  using Vertex_handle = typename Mesh::Vertex_handle;
+  const Triangulation& cdt = mesh.triangulation();
+  const auto chains = chains_of_mesh(cdt);
+  CGAL::Unique_hash_map<Vertex_handle, Vertex_handle> copy;
+  typename Mesh::Face_handle hint, f;
+  for (const Vertex_handle v : mesh.vertices()) {
+    if (v->constraint() != fixed_vertex) continue;
+    copy[v] = bare.insert(v->point(), hint);
+    hint = copy[v]->face();
+  }
+  try {
+    for (const auto& chain : chains) bare.insert_constraint(copy[chain.front()], copy[chain.back()]);
+  } catch (const typename Triangulation::Intersection_of_constraints_exception&) {
+    return false;
+  }
+  const auto components = face_components(bare);
+  std::vector<char> in_domain(as_index(components.count), false);
+  // The face to the left of an edge, or null.
+  const auto left = [&](const Triangulation& of, Vertex_handle a, Vertex_handle b) {
+    int i;
+    if (!of.is_edge(a, b, f, i)) return typename Mesh::Face_handle();
+    return f->vertex(Triangulation::ccw(i)) == a ? f : f->neighbor(i);
+  };
+  for (const auto& chain : chains) {
+    const Vertex_handle a = chain[0], b = chain[1], from = copy[chain.front()], to = copy[chain.back()];
+    if (left(bare, from, to) == typename Mesh::Face_handle()) return false;
+    in_domain[as_index(components.number[left(bare, from, to)])] = left(cdt, a, b)->is_in_domain();
+    in_domain[as_index(components.number[left(bare, to, from)])] = left(cdt, b, a)->is_in_domain();
+  }
+  bool any = false;
+  for (const auto face : bare.finite_face_handles()) {
+    face->set_in_domain(in_domain[as_index(components.number[face])]);
+    any = any || face->is_in_domain();
+  }
+  return any;
+}
+
+/// Does so for a mesh made with `Given::meshed`.
+template <class Mesh, class Sizing, class Go_on>
+WEFT_COLD bool grade_meshed_2(Mesh& mesh, const Sizing& sizing, std::size_t max_vertices, const Go_on& go_on)
+{
+  typename Mesh::Triangulation bare(mesh.triangulation().geom_traits());
+  if (!bare_input_2(mesh, bare)) return true;
+  Mesh scratch(bare, sizing);
   if (!sample_constraints_2(scratch, 1, max_vertices, go_on)) return false;
   scratch.renumber();
   set_grading_2(mesh, scratch);

@@ -55,12 +55,18 @@ WEFT_COLD std::vector<double> equal_metric_parts(const Point& a, const Point& b,
   return cuts;
 }
 
-/// Inserts points on one chain. Of many points the middle one comes first, then those of each half in the same way:
-/// from end to end, each would turn over the triangles of all points across, in quadratic time. Few go from end to end.
-/// \param cuts parameters of the points along the chain, increasing.
+/// Inserts points on a part of one chain. Of many points the middle one comes first, then those of each half in the
+/// same way: from end to end, each would turn over the triangles of all points across, in quadratic time. Few go from
+/// end to end.
+/// \param from,to ends of the part, in the direction of the chain or against it; nothing is done unless an edge joins
+///   them.
+/// \param cuts parameters of the points along the chain, from `from` to `to`.
 /// \param go_on callable without arguments, called for every point; false stops.
-template <class Mesh, class Chain, class Go_on>
-WEFT_COLD bool insert_cuts(Mesh& mesh, const Chain& chain, const std::vector<double>& cuts, const Go_on& go_on)
+/// \param visit called with each new vertex.
+template <class Mesh, class Chain, class Go_on, class Visit>
+WEFT_COLD bool insert_cuts(Mesh& mesh, const Chain& chain, typename Mesh::Vertex_handle from,
+                           typename Mesh::Vertex_handle to, const std::vector<double>& cuts, const Go_on& go_on,
+                           const Visit& visit)
 {
   using Triangulation = typename Mesh::Triangulation;
   using Vertex_handle = typename Mesh::Vertex_handle;
@@ -71,7 +77,7 @@ WEFT_COLD bool insert_cuts(Mesh& mesh, const Chain& chain, const std::vector<dou
   };
   constexpr std::size_t most_in_a_row = 256;
   const auto a = chain.source->point(), b = chain.target->point();
-  std::vector<Piece> pieces{{chain.source, chain.target, 0, cuts.size()}};
+  std::vector<Piece> pieces{{from, to, 0, cuts.size()}};
   while (!pieces.empty()) {
     const Piece piece = pieces.back();
     pieces.pop_back();
@@ -86,10 +92,18 @@ WEFT_COLD bool insert_cuts(Mesh& mesh, const Chain& chain, const std::vector<dou
     if (!mesh.triangulation().is_edge(piece.source, piece.target, f, i)) continue;
     const Vertex_handle v = mesh.insert_on_constraint(p, f, i);
     if (v == Vertex_handle()) continue; // at the end of resolution: there is no place for the others either
+    visit(v);
     pieces.push_back({v, piece.target, middle + 1, piece.last});
     pieces.push_back({piece.source, v, piece.first, middle});
   }
   return true;
+}
+
+/// The same for a whole chain.
+template <class Mesh, class Chain, class Go_on>
+bool insert_cuts(Mesh& mesh, const Chain& chain, const std::vector<double>& cuts, const Go_on& go_on)
+{
+  return insert_cuts(mesh, chain, chain.source, chain.target, cuts, go_on, [](const auto&) {});
 }
 
 /// Inserts Steiner points on all constraints of a Working_mesh_2, or none if that takes more than `max_vertices`.

@@ -65,7 +65,7 @@ public:
       targets.clear();
       double largest = 0;
       for (const Vertex_handle v : active) {
-        if (v->constraint() == fixed_vertex) continue;
+        if (v->constraint() == fixed_vertex || mesh_.is_frozen(v)) continue;
         const auto t = smoother.target(v);
         largest = (std::max)(largest, t.move_ratio);
         if (t.move_ratio < rest * effort.move_ratio) continue;
@@ -81,13 +81,13 @@ public:
     return outcome;
   }
 
-  /// The vertices and their neighbors, once each, by number.
+  /// The vertices and their neighbors, without frozen ones, once each, by number.
   std::vector<Vertex_handle> with_neighbors(const std::vector<Vertex_handle>& vertices) const
   {
     std::vector<char> listed(mesh_.vertices().size(), 0);
     std::size_t count = 0;
     const auto list = [&](Vertex_handle v) {
-      if (mesh_.is_frame(v) || listed[as_index(v->id())]) return;
+      if (mesh_.is_frame(v) || mesh_.is_frozen(v) || listed[as_index(v->id())]) return;
       listed[as_index(v->id())] = 1;
       ++count;
     };

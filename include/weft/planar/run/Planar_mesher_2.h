@@ -15,10 +15,12 @@
 #include <weft/planar/refine/Crystal_seeder_2.h>
 #include <weft/planar/refine/grade_input_2.h>
 #include <weft/planar/refine/least_vertices_2.h>
+#include <weft/planar/refine/Misfit_remover_2.h>
 #include <weft/planar/refine/sample_constraints_2.h>
 #include <weft/planar/relax/Relaxation_guard_2.h>
 #include <weft/planar/run/Angle_goal_2.h>
 #include <weft/planar/run/Mesh_optimiser_2.h>
+#include <weft/planar/working/Frozen_vertices_2.h>
 #include <weft/planar/working/Working_mesh_2.h>
 #include <weft/report.h>
 
@@ -32,7 +34,7 @@
 
 namespace weft::internal {
 
-/// The planar mesher's driver; `make_mesh_2()` and `relax_2()` run it.
+/// The planar mesher's driver; `make_mesh_2()`, `adapt_2()` and `relax_2()` run it.
 template <class Cdt, class Sizing>
 class Planar_mesher_2
 {
@@ -42,9 +44,9 @@ public:
   using Vertex_handle = typename Mesh::Vertex_handle;
   using Face_handle = typename Mesh::Face_handle;
 
-  /// \param keep_vertices whether vertices without constraints are to be moved rather than kept as input.
-  Planar_mesher_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options, bool keep_vertices)
-      : mesh_(cdt, sizing, keep_vertices ? Mesh::Given::relaxable : Mesh::Given::input),
+  /// \param given `input` to mesh, `meshed` to adapt, `relaxable` to relax.
+  Planar_mesher_2(Cdt& cdt, const Sizing& sizing, const Mesh_options_2& options, typename Mesh::Given given)
+      : mesh_(cdt, sizing, given),
         sizing_(sizing),
         options_(options),
         run_(options.visitor, options.time_limit),
@@ -64,6 +66,18 @@ public:
       timed(Stage::seeding, [this] { seed(); });
       timed(Stage::relaxation, [this] { relax_all(options_.move_ratio, options_.quadrature); });
     }
+    interleave();
+    return finish();
+  }
+
+  /// Empties what doesn't fit, fills it again, and goes on as for a new mesh with what is near.
+  Mesh_report_2 adapt()
+  {
+    Misfit_remover_2<Mesh> remover(mesh_, constraint_spacing);
+    if (options_.grade_input) timed(Stage::constraints, [this] { grade_meshed(); });
+    timed(Stage::constraints, [&] { empty(remover); });
+    if (options_.seeding == Seeding::crystal) timed(Stage::seeding, [&] { seed_holes(remover); });
+    timed(Stage::relaxation, [this] { relax_all(options_.move_ratio, options_.quadrature); });
     interleave();
     return finish();
   }
@@ -125,6 +139,26 @@ private:
     if (!grade_input_2(mesh_, sizing_, options_.max_vertices, asked_with_count())) stop(Stop_reason::vertex_budget);
   }
 
+  WEFT_COLD void grade_meshed()
+  {
+    if (!grade_meshed_2(mesh_, sizing_, options_.max_vertices, asked_with_count())) stop(Stop_reason::vertex_budget);
+  }
+
+  WEFT_COLD void empty(Misfit_remover_2<Mesh>& remover)
+  {
+    refiner_.set_min_angle(options_.min_angle);
+    const auto is_sharp = [this](Face_handle f) { return options_.min_angle > 0 && refiner_.is_too_sharp(f); };
+    if (!remover.run(options_.max_vertices, is_sharp, asked())) stop(Stop_reason::vertex_budget);
+  }
+
+  WEFT_COLD void seed_holes(const Misfit_remover_2<Mesh>& remover)
+  {
+    Crystal_seeder_2<Mesh> seeder(mesh_, lattice_spacing);
+    const auto is_open = [&](Face_handle f) { return remover.is_open(f); };
+    if (!seeder.run_in_holes(is_open, options_.max_vertices, asked_with_count())) stop(Stop_reason::vertex_budget);
+    mesh_.renumber();
+  }
+
   void sample_constraints()
   {
     if (!sample_constraints_2(mesh_, constraint_spacing, options_.max_vertices, asked_with_count()))
@@ -141,7 +175,7 @@ private:
 
   void relax_all(double move_ratio, int quadrature)
   {
-    relax(mesh_.vertices(), {move_ratio, quadrature, options_.max_sweeps});
+    relax(movable_vertices_2(mesh_), {move_ratio, quadrature, options_.max_sweeps});
   }
 
   void relax(std::vector<Vertex_handle> active, const typename Mesh_optimiser_2<Mesh>::Effort& effort)
@@ -153,11 +187,11 @@ private:
   /// that held before doesn't hold afterwards. When all hold, angles are mended, too, as far as that is cheap.
   WEFT_COLD void interleave()
   {
-    optimiser_.allow_insertions(optimiser_.least_insertions + mesh_.vertices().size() / 50);
+    optimiser_.allow_insertions(optimiser_.least_insertions + movable_vertices_2(mesh_).size() / 50);
     for (int round = 0; round < most_rounds; ++round) {
       refine_and_polish(round == 0);
       if (is_stopped()) break;
-      bad_ = refiner_.find_bad();
+      bad_ = refiner_.find_bad_everywhere();
       if (bad_ > 0 || begin_mending()) continue;
       if (options_.polish) timed(Stage::polishing, [this] { hop(); });
       goal_.judge_as_asked();
@@ -185,7 +219,7 @@ private:
   void find_bad()
   {
     refiner_.set_min_angle(goal_.degrees());
-    bad_ = refiner_.find_bad();
+    bad_ = refiner_.find_bad_everywhere();
   }
 
   /// Has refinement look for angles that nobody asked for, once. Returns whether there is something to do.

@@ -30,13 +30,14 @@ struct Has_info<Face, std::void_t<decltype(std::declval<Face&>().info() = std::d
 {};
 
 /// Gives the faces of a mesh the `info()` of the input's faces in which they lie, where they have any.
+/// \param meshed as Input_faces_2 has it.
 template <class Cdt, class Run>
-auto keep_face_info_2(Cdt& cdt, const Run& run)
+auto keep_face_info_2(Cdt& cdt, const Run& run, bool meshed = false)
 {
   if constexpr (!Has_info<typename Cdt::Face>::value) {
     return run(cdt);
   } else {
-    const Input_faces_2<Cdt> input(cdt);
+    const Input_faces_2<Cdt> input(cdt, meshed);
     const auto copy = [](auto from, auto to) { to->info() = from->info(); };
     try {
       auto result = run(cdt);

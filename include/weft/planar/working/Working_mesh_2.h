@@ -10,15 +10,16 @@
 #ifndef WEFT_PLANAR_WORKING_WORKING_MESH_2_H
 #define WEFT_PLANAR_WORKING_WORKING_MESH_2_H
 
-#include <weft/errors.h>
 #include <weft/internal/as_index.h>
 #include <weft/internal/cold.h>
+#include <weft/planar/graph/chains_of_mesh_2.h>
 #include <weft/planar/graph/mark_domain.h>
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 #include <weft/planar/triangulation/Relocator_2.h>
-#include <weft/planar/working/chains_of_mesh_2.h>
+#include <weft/planar/working/checked_box_2.h>
 #include <weft/planar/working/Constraint_chains_2.h>
 #include <weft/planar/working/Frame_2.h>
+#include <weft/planar/working/Frozen_vertices_2.h>
 #include <weft/planar/working/Vertex_remover_2.h>
 #include <weft/planar/working/Vertex_targets_2.h>
 #include <weft/sizing/Uniform_sizing.h>
@@ -56,7 +57,7 @@ public:
   {
     input,     ///< every vertex is an input vertex: nothing given moves
     relaxable, ///< vertices without constraints are free
-    meshed     ///< so are, along them, those on constraints that a mesher has inserted
+    meshed     ///< so are, along them, those on constraints that a mesher has inserted; what is `fixed_vertex` stays
   };
 
   /// Marks the domain by nesting parity if no face is in it yet.
@@ -68,15 +69,16 @@ public:
         remover_(cdt, relocator_),
         targets_(sizing)
   {
-    check_coordinates();
+    bbox_ = checked_box_2(cdt);
     const bool marked = std::any_of(cdt.finite_faces_begin(), cdt.finite_faces_end(),
                                     [](const auto& face) { return face.is_in_domain(); });
     if (!marked) mark_domain_by_parity(cdt);
-    input_vertices_ = cdt.number_of_vertices();
     std::vector<std::vector<Vertex_handle>> chains;
     if (given == Given::meshed) chains = chains_of_mesh(cdt);
-    for (const Vertex_handle v : cdt.finite_vertex_handles()) v->set_constraint(fixed_vertex);
-    if (given != Given::input) free_unconstrained_vertices();
+    for (const Vertex_handle v : cdt.finite_vertex_handles()) {
+      const bool may_move = given == Given::relaxable || (given == Given::meshed && v->constraint() != fixed_vertex);
+      v->set_constraint(may_move && !cdt.are_there_incident_constraints(v) ? free_vertex : fixed_vertex);
+    }
     for (const auto& chain : chains) {
       for (std::size_t i = 1; i + 1 < chain.size(); ++i)
         chain[i]->set_constraint(static_cast<int>(chains_.all().size()));
@@ -84,6 +86,7 @@ public:
     }
     for (auto e = cdt.constrained_edges_begin(); given != Given::meshed && e != cdt.constrained_edges_end(); ++e)
       chains_.add(e->first->vertex(cdt.ccw(e->second)), e->first->vertex(cdt.cw(e->second)));
+    input_vertices_ = count_given(given);
     frame_.add(bbox_);
     renumber();
   }
@@ -121,6 +124,7 @@ public:
       old_ids.push_back(is_old ? old : -1);
     }
     targets_.renumber(vertices_, old_ids);
+    frozen_.renumber(old_ids);
     frame_.number_from(static_cast<int>(vertices_.size()));
     for (const Face_handle f : cdt_.finite_face_handles())
       if (f->is_in_domain()) faces_.push_back(f);
@@ -137,10 +141,19 @@ public:
     }
     v->set_id(id);
     vertices_[n] = v;
+    frozen_.thaw(n);
     targets_.set(n, v->point());
   }
 
   bool is_frame(Vertex_handle v) const { return frame_.contains(v); }
+
+  /// What improves meshes leaves frozen vertices alone, and faces with no others.
+  Frozen_vertices_2& frozen() { return frozen_; }
+  bool is_frozen(Vertex_handle v) const { return frozen_.contains(v->id()); }
+  bool is_frozen(Face_handle f) const
+  {
+    return is_frozen(f->vertex(0)) && is_frozen(f->vertex(1)) && is_frozen(f->vertex(2));
+  }
 
   /// Largest edge length that the sizing field admits at a point.
   /// \throws Option_error if the sizing field returns anything but a positive finite number.
@@ -302,20 +315,12 @@ private:
     return a == Vertex_handle() || chains_.is_between(v->point(), a->point(), b->point(), v->constraint());
   }
 
-  WEFT_COLD void check_coordinates()
+  std::size_t count_given(Given given) const
   {
-    if (cdt_.dimension() < 2) throw Domain_error("the domain is empty: its points don't span the plane", {}, {});
-    for (const Vertex_handle v : cdt_.finite_vertex_handles()) bbox_ += v->point().bbox();
-    const double extent = (std::max)(bbox_.xmax() - bbox_.xmin(), bbox_.ymax() - bbox_.ymin());
-    // Beyond these, fourth powers of lengths leave the range of double.
-    if (!(extent > 1e-60 && extent < 1e60))
-      throw Domain_error("coordinates out of range: the domain's extent must lie between 1e-60 and 1e60", {}, {});
-  }
-
-  void free_unconstrained_vertices()
-  {
-    for (const Vertex_handle v : cdt_.finite_vertex_handles())
-      if (!cdt_.are_there_incident_constraints(v)) v->set_constraint(free_vertex);
+    if (given != Given::meshed) return cdt_.number_of_vertices();
+    const auto all = cdt_.finite_vertex_handles();
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](Vertex_handle v) { return v->constraint() == fixed_vertex; }));
   }
 
   /// Whether the two faces that p makes of f by splitting edge i are positively oriented.
@@ -333,6 +338,7 @@ private:
   Relocator_2<Cdt> relocator_;
   Vertex_remover_2<Cdt> remover_;
   Vertex_targets_2<Cdt, Sizing> targets_;
+  Frozen_vertices_2 frozen_;
   CGAL::Bbox_2 bbox_;
   std::size_t input_vertices_ = 0;
   bool constraints_are_locked_ = false;

@@ -13,6 +13,7 @@
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/spatial/mesh/Cell_locator_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
+#include <weft/Transfer.h>
 
 #include <algorithm>
 #include <array>
@@ -22,13 +23,6 @@
 #include <vector>
 
 namespace weft {
-
-/// How values are carried over.
-enum class Transfer
-{
-  interpolated, ///< the old function at the new vertices: second order, but integrals change
-  conserving    ///< means of the old function around the new vertices: integrals stay, and peaks flatten a little
-};
 
 namespace internal {
 

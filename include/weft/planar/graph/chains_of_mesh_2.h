@@ -2,8 +2,8 @@
 //
 // The constraints of a finished planar mesh, found by their Steiner vertices.
 
-#ifndef WEFT_PLANAR_WORKING_CHAINS_OF_MESH_2_H
-#define WEFT_PLANAR_WORKING_CHAINS_OF_MESH_2_H
+#ifndef WEFT_PLANAR_GRAPH_CHAINS_OF_MESH_2_H
+#define WEFT_PLANAR_GRAPH_CHAINS_OF_MESH_2_H
 
 #include <weft/planar/triangulation/Mesh_triangulation_2.h>
 
@@ -50,4 +50,4 @@ std::vector<std::vector<typename Cdt::Vertex_handle>> chains_of_mesh(const Cdt& 
 
 } // namespace weft::internal
 
-#endif // WEFT_PLANAR_WORKING_CHAINS_OF_MESH_2_H
+#endif // WEFT_PLANAR_GRAPH_CHAINS_OF_MESH_2_H
