@@ -66,6 +66,7 @@ void add_options(command_line::Options& options, Request& request)
       options, request,
       ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl");
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
+  request.options.threads = command_line::all_cores();
   add_seed_threads_and_time(options, request.options);
   add_max_vertices(options, request.options);
   add_quiet(options, request);

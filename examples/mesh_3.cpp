@@ -126,14 +126,16 @@ void add_options(command_line::Options& options, Request& request)
   options.flag("--labels", request.image.takes_labels, "take an image for labels, even if it looks like grey values");
   options.texts("--name", "LABEL:NAME", request.name_texts,
                 "name of a subdomain in .msh, .vtu and .inp files; may be given several times");
-  options.integer("--order", "N", 1, 2, request.bounds.order,
-                "order of the elements (default 1): with 2, edges have nodes in the middle, which lie on\nthe boundary "
-                "where edges do; for .vtu, .msh and .inp");
+  options.integer(
+      "--order", "N", 1, 2, request.bounds.order,
+      "order of the elements (default 1): with 2, edges have nodes in the middle, which lie on\nthe boundary "
+      "where edges do; for .vtu, .msh and .inp");
   add_outputs(
       options, request,
       ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl");
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   add_histogram(options, request, "a picture of the distribution of dihedral angles");
+  request.options.threads = command_line::all_cores();
   add_seed_threads_and_time(options, request.options);
   add_max_vertices(options, request.options);
   add_quiet(options, request);

@@ -10,11 +10,13 @@
 
 #include <weft/IO/internal/Svg_canvas.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <map>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -47,13 +49,20 @@ inline void add_histogram(Options& options, Files& files, const std::string& hel
   options.filename("--histogram", ".svg", files.histogram, help);
 }
 
+/// How many threads the machine runs at once.
+inline int all_cores()
+{
+  return static_cast<int>((std::max)(1u, std::thread::hardware_concurrency()));
+}
+
 /// How a run begins and what it may use.
 /// \param run the options of any of weft's entry points.
 template <class Run_options>
 void add_seed_threads_and_time(Options& options, Run_options& run)
 {
   options.integer("--seed", "N", 0u, std::numeric_limits<unsigned>::max(), run.seed, "start of every random choice");
-  options.integer("--threads", "N", 1, 1024, run.threads, "threads to use; the mesh is the same for any number");
+  options.integer("--threads", "N", 1, 1024, run.threads,
+                  "threads to use (default " + std::to_string(run.threads) + "); the mesh is the same for any number");
   options.positive("--time-limit", "SECONDS", run.time_limit, "stop early after this time");
 }
 

@@ -66,14 +66,16 @@ class Runner:
 
 def by_weft(run, programs, file, work, limit):
     mesh = work / "weft.mesh"
-    run(programs / "examples" / "mesh_3", file, "--quiet", "--time-limit", limit, "--output", mesh, statuses=(0, 2))
+    run(programs / "examples" / "mesh_3", file, "--quiet", "--threads", "1", "--time-limit", limit, "--output", mesh,
+        statuses=(0, 2))
     return mesh
 
 
 def by_wrap(run, programs, file, work, limit):
     run(programs / "benchmark" / "wrap_surface", file, work / "wrap.off")
     mesh = work / "wrap.mesh"
-    run(programs / "examples" / "mesh_3", work / "wrap.off", "--quiet", "--time-limit", limit, "--output", mesh,
+    run(programs / "examples" / "mesh_3", work / "wrap.off", "--quiet", "--threads", "1", "--time-limit", limit,
+        "--output", mesh,
         statuses=(0, 2))
     return mesh
 
