@@ -34,8 +34,8 @@ using mesh_2_program::Domain;
 // ---- What is asked for
 
 const std::string before_options =
-    "usage: mesh_2 INPUT [--size [MARK:]S]... [--size-field FILE] [--gradation K] [--lfs K] [--min-size S]\n"
-    "              [--min-angle DEG] [--output FILE]...\n"
+    "usage: mesh_2 INPUT [--size [MARK:]S]... [--lfs K] [--min-size S] [--min-angle DEG] [--output FILE]...\n"
+    "              [--size-field FILE] [--gradation K]\n"
     "              [--voronoi FILE.svg] [--histogram FILE.svg] [--report FILE.json] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--tolerance T] [--split-crossings] [--quiet]\n\n"
     "Meshes the domain that a planar straight line graph encloses with large, well-shaped triangles. INPUT is a .poly "

@@ -418,3 +418,34 @@ TEST_CASE("the data of the project can be meshed")
     CHECK(number(folder.read("r.json"), "smallest_angle") > 25);
   }
 }
+
+TEST_CASE("sizes come from a file, and grade")
+{
+  const Folder folder("size_field");
+  folder.write("square.poly", unit_square);
+  const std::string mesh =
+      "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nTriangles\n2\n"
+      "1 2 3 1\n1 3 4 1\nEnd\n";
+  const auto solution = [](const std::string& values) {
+    return "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n4\n1 1\n" + values + "End\n";
+  };
+  folder.write("field.mesh", mesh);
+  const auto run = [&](const std::string& arguments) {
+    const Outcome outcome = folder.run("square.poly --output m.off " + arguments);
+    CHECK(outcome.status == 0);
+    return triangles(folder.read("m.off"));
+  };
+  folder.write("field.sol", solution("0.1\n0.1\n0.1\n0.1\n"));
+  const std::size_t even = run("--size 0.1");
+  CHECK(static_cast<double>(run("--size-field field.mesh")) == Approx(even).epsilon(0.05));
+  CHECK(static_cast<double>(run("--size-field field.sol --size 0.05")) == Approx(run("--size 0.05")).epsilon(0.05));
+  folder.write("field.sol", solution("0.02\n2\n2\n2\n"));
+  const std::size_t graded = run("--size-field field.mesh --gradation 0.1");
+  CHECK(graded > run("--size-field field.mesh --gradation 0.3"));
+  for (const std::string bad :
+       {"--size-field missing.vtu", "--size-field field.mesh --lfs 1", "--gradation 0.2", "--size-field square.poly"}) {
+    const Outcome outcome = folder.run("square.poly --output bad.off " + bad);
+    CHECK(outcome.status == 1);
+    CHECK(is_one_line(outcome.err));
+  }
+}

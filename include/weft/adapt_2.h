@@ -4,8 +4,6 @@
 // field, and leaves alone what fits already. Elsewhere the mesh is emptied, filled with a new lattice that goes on from
 // what stays, relaxed, refined and polished as `make_mesh_2()` does it (Tournois 2009, chapter 2).
 //
-//   #include <weft/sizing/Lipschitz_sizing_2.h>
-//
 //   weft::Mesh_triangulation_2<K> cdt;
 //   const std::vector<K::Point_2> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 //   cdt.insert_constraint(corners.begin(), corners.end(), true);
