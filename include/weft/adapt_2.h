@@ -41,8 +41,9 @@ struct Has_polylines_2
 /// Adapts a mesh to another sizing field.
 ///
 /// All that `make_mesh_2()` promises holds for the result, too: sizes, angles, constraints, the domain, `info()` of
-/// faces. Input vertices stay where they are. So do Steiner vertices, to the last bit, where sizes are as they were,
-/// but for a few rings around what changes; those on constraints move and go along them.
+/// faces. Input vertices stay where they are. So do most Steiner vertices where sizes are as they were, but for a few
+/// rings around what changes, and but for places that the input crowds with vertices; those on constraints move and go
+/// along them.
 ///
 /// Time is that of meshing what changes, and a small part of meshing the rest.
 /// \param cdt as `make_mesh_2()` leaves it: `constraint()` of a vertex is `free_vertex` inside, from 0 on where it may
