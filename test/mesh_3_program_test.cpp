@@ -354,6 +354,18 @@ TEST_CASE("a smallest dihedral angle that isn't reached gives status 2 and says 
   CHECK(folder.new_files() == Names{"m.mesh"});
 }
 
+TEST_CASE("elements of second order are written where a format has them")
+{
+  const Folder folder("order");
+  const Outcome outcome = folder.run("cube.off --size 0.5 --order 2 --output m.vtu --output m.msh --output m.inp");
+  CHECK(outcome.status == 0);
+  CHECK(contains(outcome.out, "second order: 0 curved edges, 0 bent less"));
+  CHECK(contains(folder.read("m.inp"), "TYPE=C3D10"));
+  CHECK(contains(folder.read("m.vtu"), "</VTKFile>"));
+  CHECK(folder.run("cube.off --order 2 --output n.mesh").status == 1);
+  CHECK(folder.run("cube.off --order 3 --output n.vtu").status == 1);
+}
+
 TEST_CASE("the same request gives the same files, for any number of threads")
 {
   const Folder folder("same");
