@@ -147,7 +147,7 @@ double forcing_angle(const Restricted& mesh, typename Restricted::Cell_handle c,
 /// Whether a cell is next to flat. However small an angle of the input is, it forces no such cell.
 inline bool is_flat(const Dihedral_cosines_3& angles)
 {
-  constexpr double cosine = -0.9962; // of 175 degrees
+  constexpr double cosine = -0.99985; // of 179 degrees
   return angles.largest < cosine;
 }
 

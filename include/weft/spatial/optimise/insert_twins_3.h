@@ -10,10 +10,10 @@
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/criteria/forced_elements_3.h>
 #include <weft/spatial/domain/Acute_edges_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
-#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/restricted/Vertex_transaction_3.h>
 
 #include <CGAL/number_utils.h>
@@ -42,19 +42,21 @@ public:
   using Vertex_handle = typename Restricted::Vertex_handle;
   using Zone = typename Restricted::Zone;
 
-  Twin_inserter_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const std::function<bool()>& goes_on)
-      : mesh_(mesh), guard_(guard), judge_(mesh, guard), goes_on_(goes_on)
+  /// \param most vertices of the mesh, up to which more may be inserted.
+  Twin_inserter_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, std::size_t most,
+                  const std::function<bool()>& goes_on)
+      : mesh_(mesh), guard_(guard), most_(most), judge_(mesh, guard), goes_on_(goes_on)
   {}
 
   /// \returns the number of vertices inserted.
   std::size_t run()
   {
-    const std::size_t before = mesh_.vertices().size(), most = before + before / 8;
+    const std::size_t before = mesh_.vertices().size();
     std::size_t trials_left = least_trials + work / (1 + mesh_.triangulation().number_of_finite_cells());
     for (int pass = 0; pass < most_passes; ++pass) {
       const std::size_t at_first = mesh_.vertices().size();
       for (const auto& bad : bad_cells()) {
-        if (mesh_.vertices().size() >= most || !goes_on_()) break;
+        if (mesh_.vertices().size() >= most_ || trials_left == 0 || !goes_on_()) break;
         mend(bad.second, trials_left);
       }
       if (mesh_.vertices().size() == at_first) break;
@@ -72,8 +74,7 @@ private:
     return std::sqrt(CGAL::to_double(CGAL::squared_distance(p, q)));
   }
 
-  /// Cells beside twins that are worse than asked for, those that small angles force if they are much worse; the worst
-  /// first.
+  /// Cells beside twins that are worse than asked for though no small angle forces them; the worst first.
   std::vector<std::pair<double, Cell>> bad_cells() const
   {
     std::vector<std::pair<double, Cell>> bad;
@@ -83,7 +84,7 @@ private:
       for (int i = 0; i < 4; ++i) twins += mesh_.is_fixed_with_twin(c->vertex(i));
       if (twins < 2) continue;
       const double x = judge_.measure(c);
-      if (!(x > bound_) || (x < bound_of_forced_ && forcing_angle(mesh_, c) < largest_angle_with_twins)) continue;
+      if (!(x > bound_) || forcing_angle(mesh_, c) < largest_angle_with_twins) continue;
       Cell ids;
       for (int i = 0; i < 4; ++i) ids[static_cast<std::size_t>(i)] = c->vertex(i)->id();
       std::sort(ids.begin(), ids.end());
@@ -239,13 +240,14 @@ private:
   static constexpr std::size_t most_twins = 8;
   static constexpr double least_distance = 0.25; ///< of a new vertex from others, in parts of its edge
   static constexpr double close = 0.25;          ///< as in Mirror_twins_3
-  static constexpr std::size_t least_trials = 200, work = 20000000; ///< one that succeeds looks at all cells
+  static constexpr std::size_t least_trials = 200, work = 5000000; ///< one that succeeds looks at all cells
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted>& guard_;
+  std::size_t most_; ///< vertices
   Perturbation_judge_3<Restricted> judge_;
   const std::function<bool()>& goes_on_;
-  const double bound_ = cosine_of_degrees(20), bound_of_forced_ = cosine_of_degrees(15);
+  const double bound_ = cosine_of_degrees(20);
   const double mendable_ = cosine_of_degrees(16); ///< shorter edges leave the vertices around more room
   std::vector<Cell_handle> star_;
   std::vector<Point> points_; ///< of the group to be inserted
@@ -255,13 +257,16 @@ private:
 };
 
 /// Inserts twins at cells that are worse than 20 degrees though no small angle forces them, as long as that betters
-/// them or leaves what the perturber can mend, at most one for each eight vertices. Linear in the size of the mesh for
-/// each trial, of which there are the fewer the larger the mesh is. \returns the number of vertices inserted.
+/// them or leaves what the perturber can mend. Linear in the size of the mesh for each trial, of which there are the
+/// fewer the larger the mesh is.
+/// \param most vertices of the mesh, up to which more may be inserted.
+/// \returns the number of vertices inserted.
 template <class Restricted>
-std::size_t insert_twins(Restricted& mesh, Criteria_guard_3<Restricted>& guard, const std::function<bool()>& goes_on)
+std::size_t insert_twins(Restricted& mesh, Criteria_guard_3<Restricted>& guard, std::size_t most,
+                         const std::function<bool()>& goes_on)
 {
   if (!mesh.oracle().has_mirror_images()) return 0;
-  return Twin_inserter_3<Restricted>(mesh, guard, goes_on).run();
+  return Twin_inserter_3<Restricted>(mesh, guard, most, goes_on).run();
 }
 
 } // namespace weft::internal

@@ -8,10 +8,10 @@
 #define WEFT_SPATIAL_OPTIMISE_MOVE_TWINS_3_H
 
 #include <weft/spatial/criteria/Criteria_guard_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
-#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 
 #include <CGAL/number_utils.h>
@@ -40,15 +40,17 @@ public:
   using Cell_handle = typename Restricted::Cell_handle;
   using Vertex_handle = typename Restricted::Vertex_handle;
 
-  Twin_mover_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, unsigned seed,
+  /// \param share of the usual trials.
+  Twin_mover_3(Restricted& mesh, Criteria_guard_3<Restricted>& guard, unsigned seed, double share,
                const std::function<bool()>& goes_on)
-      : mesh_(mesh), guard_(guard), judge_(mesh, guard), goes_on_(goes_on), random_(seed)
+      : mesh_(mesh), guard_(guard), share_(share), judge_(mesh, guard), goes_on_(goes_on), random_(seed)
   {}
 
   /// \returns the number of moves that were kept.
   std::size_t run()
   {
-    trials_left_ = least_trials + work / (1 + mesh_.triangulation().number_of_finite_cells());
+    const std::size_t usual = least_trials + work / (1 + mesh_.triangulation().number_of_finite_cells());
+    trials_left_ = static_cast<std::size_t>(share_ * static_cast<double>(usual));
     std::size_t moved = 0;
     for (int pass = 0; pass < most_passes; ++pass) {
       std::size_t in_pass = 0;
@@ -229,6 +231,7 @@ private:
 
   Restricted& mesh_;
   Criteria_guard_3<Restricted>& guard_;
+  double share_;
   Perturbation_judge_3<Restricted> judge_;
   const std::function<bool()>& goes_on_;
   std::mt19937 random_;
@@ -240,13 +243,14 @@ private:
 
 /// Moves twins at cells that are worse than 20 degrees, or than what their wedge allows, as long as that betters them.
 /// Linear in the size of the mesh for each trial, of which there are the fewer the larger the mesh is.
+/// \param share of the usual trials.
 /// \returns the number of moves that were kept.
 template <class Restricted>
-std::size_t move_twins(Restricted& mesh, Criteria_guard_3<Restricted>& guard, unsigned seed,
+std::size_t move_twins(Restricted& mesh, Criteria_guard_3<Restricted>& guard, unsigned seed, double share,
                        const std::function<bool()>& goes_on)
 {
   if (!mesh.oracle().has_mirror_images()) return 0;
-  return Twin_mover_3<Restricted>(mesh, guard, seed, goes_on).run();
+  return Twin_mover_3<Restricted>(mesh, guard, seed, share, goes_on).run();
 }
 
 } // namespace weft::internal

@@ -255,7 +255,7 @@ private:
   {
     turn_diagonals(mesh_, guard(), options_.seed + 3);
     const std::function<bool()> goes_on = [this] { return visit(0) && run_.has_time(); };
-    move_twins(mesh_, guard(), options_.seed + 4, goes_on);
+    move_twins(mesh_, guard(), options_.seed + 4, 1, goes_on);
     Perturb_options_3 options;
     options.target = options_.min_dihedral_angle;
     // Where something is bad, the input has angles so small that the worst cells stay, whatever is done about them.
@@ -271,15 +271,16 @@ private:
     options.go_on = [this](double) { return visit(0); };
     // The worst cells are much work: first it is seen what more twins can do about them.
     const bool mends_worst = options.mend_worst, has_twins = has_fixed_twins(mesh_);
+    const std::size_t most = mesh_.vertices().size() + mesh_.vertices().size() / 8;
     for (unsigned round = 0;; ++round) {
       options.mend_worst = mends_worst && (round > 0 || !has_twins);
       const Perturb_report_3 result = perturb_slivers_3(mesh_, guard(), options);
-      move_twins(mesh_, guard(), options_.seed + 5 + round, goes_on);
+      move_twins(mesh_, guard(), options_.seed + 5 + round, round == 0 ? 1 : share_of_trials, goes_on);
       if (round == 0) report_.smoothed_smallest_dihedral = result.before;
       report_.perturbed += result.by_radius + result.by_volume + result.by_chance;
       report_.perturb_insertions += result.insertions;
       if (!has_twins || !goes_on()) break;
-      const std::size_t twins = round < rounds_of_twins ? insert_twins(mesh_, guard(), goes_on) : 0;
+      const std::size_t twins = round < rounds_of_twins ? insert_twins(mesh_, guard(), most, goes_on) : 0;
       report_.perturb_insertions += twins;
       if (twins > 0) turn_diagonals(mesh_, guard(), options_.seed + 8 + round);
       if (twins == 0 && round > 0) break;
@@ -289,7 +290,8 @@ private:
 
   // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
   static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.3;
-  static constexpr unsigned rounds_of_twins = 5; ///< insertions
+  static constexpr unsigned rounds_of_twins = 5;   ///< insertions
+  static constexpr double share_of_trials = 0.125; ///< that later rounds have to move twins
 
   const Oracle& oracle_;
   Criteria_3<Kernel> criteria_;
