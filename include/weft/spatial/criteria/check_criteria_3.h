@@ -126,7 +126,6 @@ public:
   bool operator()(const std::array<std::size_t, 4>& cell) const
   {
     const auto at = [&](std::size_t i) -> const typename K::Point_3& { return mesh_.points[cell[i]]; };
-    if (is_flat(cosines_of_extreme_dihedrals(at(0), at(1), at(2), at(3)))) return false;
     return forcing_angle(oracle_, incidence_,
                          {{mesh_.locations[cell[0]], mesh_.locations[cell[1]], mesh_.locations[cell[2]],
                            mesh_.locations[cell[3]]}},

@@ -51,9 +51,11 @@ void count_bad_elements(const Restricted& mesh, const Criteria_3<Kernel>& criter
                      [&](auto) { ++report.bad_vertices; });
 }
 
-/// Counts the elements whose shape the input forces, and as bad the flat ones that no angle forces. Linear.
+/// Counts the elements whose shape the input forces. Linear.
+/// \param is_perturbed whether slivers should be gone: then flat cells are bad, for no angle forces them.
 template <class Restricted, class Kernel>
-void count_forced_elements(const Restricted& mesh, const Criteria_3<Kernel>& criteria, Mesh_report_3& report)
+void count_forced_elements(const Restricted& mesh, const Criteria_3<Kernel>& criteria, bool is_perturbed,
+                           Mesh_report_3& report)
 {
   if (!mesh.oracle().has_mirror_images()) return;
   const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
@@ -61,7 +63,7 @@ void count_forced_elements(const Restricted& mesh, const Criteria_3<Kernel>& cri
     report.forced_facets += f.cell != typename Restricted::Cell_handle() && measure.has_forced_shape(f);
   for (const auto c : mesh.triangulation().finite_cell_handles()) {
     if (c->subdomain() == 0 || !measure.has_forced_shape(c)) continue;
-    const bool is_bad = is_flat(cosines_of_cell(c));
+    const bool is_bad = is_perturbed && is_flat(cosines_of_cell(c));
     report.forced_cells += !is_bad;
     report.bad_cells.elements += is_bad;
     report.bad_cells.shape += is_bad;
@@ -99,9 +101,10 @@ inline void set_exhausted_if_bad(Mesh_report_3& report)
 }
 
 /// Counts, worst elements and criteria of a mesh into `report`. Linear.
+/// \param is_perturbed see `count_forced_elements()`.
 template <class Restricted, class Kernel>
 void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteria, double size_floor,
-                 Mesh_report_3& report)
+                 Mesh_report_3& report, bool is_perturbed = false)
 {
   const auto mesh = tetrahedral_mesh(restricted);
   report.vertices = mesh.points.size();
@@ -119,7 +122,7 @@ void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteri
   report.facets = mesh.facets.size();
   report.crease_edges = mesh.edges.size();
   count_bad_elements(restricted, criteria, size_floor, report);
-  count_forced_elements(restricted, criteria, report);
+  count_forced_elements(restricted, criteria, is_perturbed, report);
   report.bare_patches = count_bare_patches(restricted);
   // Where every vertex has its disk of facets, all of them between inside and outside, the boundary is a manifold.
   const bool clean = report.bad_vertices == 0 && report.bad_facets.disk == 0 && !mesh.cells.empty();
