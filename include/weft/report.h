@@ -92,8 +92,8 @@ struct Mesh_report_3
 
   Unsatisfied_3 bad_edges, bad_facets, bad_cells;
   /// Elements at small angles of the input whose shape these force: they violate bounds on shapes, which don't apply to
-  /// them, and aren't bad. Where slivers were to be perturbed, cells with a
-  /// dihedral angle above 179 degrees aren't among them, but bad.
+  /// them, and aren't bad. Where slivers were to be perturbed, cells with a dihedral angle above 179 degrees are bad
+  /// instead.
   std::size_t forced_facets = 0, forced_cells = 0;
   std::size_t bad_vertices = 0; ///< vertices without a topological disk of boundary facets or crease edges
   std::size_t bare_patches = 0; ///< patches without a boundary facet

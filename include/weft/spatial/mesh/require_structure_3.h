@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What functions that take a mesh in arrays ask of it before anything else.
 
 #ifndef WEFT_SPATIAL_MESH_REQUIRE_STRUCTURE_3_H
 #define WEFT_SPATIAL_MESH_REQUIRE_STRUCTURE_3_H
