@@ -7,6 +7,7 @@
 #include "../optimisation/optimisation_peers.h"
 
 #include <weft/improve_3.h>
+#include <weft/spatial/mesh/validate_3.h>
 #include <weft/IO/read_tetrahedral_mesh.h>
 #include <weft/IO/write_mesh_3.h>
 #include <weft/spatial/cgal/from_c3t3.h>
