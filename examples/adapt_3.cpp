@@ -62,9 +62,7 @@ void add_options(command_line::Options& options, Request& request)
                  "edges of the boundary are sharp from this angle between normals on (default 60)");
   options.number("--min-dihedral", "DEG", 0, 90, request.min_dihedral,
                  "smallest dihedral angle to perturb slivers for; without it 20, if it can be reached");
-  add_outputs(
-      options, request,
-      ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl");
+  add_outputs(options, request, command_line::spatial_formats);
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   request.options.threads = command_line::all_cores();
   add_seed_threads_and_time(options, request.options);
@@ -75,7 +73,7 @@ void add_options(command_line::Options& options, Request& request)
 void check(const command_line::Options& options, Request& request)
 {
   check_single_input(request);
-  check_files("adapt_3", request, spatial_files::is_mesh_filename, ".mesh, .vtu, .msh, .inp, .off or .stl");
+  check_files("adapt_3", request, spatial_files::is_mesh_filename, command_line::spatial_endings);
   if (request.size.value == 0 && request.size_field.empty()) throw Error("no sizes: --size or --size-field gives them");
   command_line::check_min_dihedral(options, request.min_dihedral);
   if (options.has("--min-dihedral")) request.options.min_dihedral_angle = request.min_dihedral;

@@ -68,9 +68,7 @@ void add_options(command_line::Options& options, Request& request)
   options.number("--min-dihedral", "DEG", 0, 90, request.min_dihedral,
                  "smallest dihedral angle to work for, 90 to go as far as possible; without it 25,\nif it can be "
                  "reached");
-  add_outputs(
-      options, request,
-      ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl");
+  add_outputs(options, request, command_line::spatial_formats);
   add_report(options, request, "counts, quality before and after, time per stage");
   add_histogram(options, request, "a picture of the distributions of dihedral angles before and after");
   add_seed_threads_and_time(options, run);
@@ -82,7 +80,7 @@ void add_options(command_line::Options& options, Request& request)
 void check(const command_line::Options& options, Request& request)
 {
   check_single_input(request);
-  check_files("improve_3", request, spatial_files::is_mesh_filename, ".mesh, .vtu, .msh, .inp, .off or .stl");
+  check_files("improve_3", request, spatial_files::is_mesh_filename, command_line::spatial_endings);
   const bool is_fixed = improve_program::is_boundary_fixed(
       options, request.boundary, {"--sharp-angle", "--no-tags", "--deviation", "--delaunay", "--coarsen"});
   request.options.boundary = is_fixed ? weft::Boundary_3::fixed : weft::Boundary_3::slide;

@@ -130,9 +130,7 @@ void add_options(command_line::Options& options, Request& request)
       "--order", "N", 1, 2, request.bounds.order,
       "order of the elements (default 1): with 2, edges have nodes in the middle, which lie on\nthe boundary "
       "where edges do; for .vtu, .msh and .inp");
-  add_outputs(
-      options, request,
-      ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl");
+  add_outputs(options, request, command_line::spatial_formats);
   add_report(options, request, "counts, quality, what holds and what doesn't, time per stage");
   add_histogram(options, request, "a picture of the distribution of dihedral angles");
   request.options.threads = command_line::all_cores();
@@ -188,7 +186,7 @@ void check(const command_line::Options& options, Request& request)
   const int order = request.bounds.order;
   check_files(
       "mesh_3", request, [order](const std::string& name) { return mesh_3_program::is_mesh_filename(name, order); },
-      order == 2 ? ".vtu, .msh or .inp" : ".mesh, .vtu, .msh, .inp, .off or .stl");
+      order == 2 ? ".vtu, .msh or .inp" : command_line::spatial_endings);
   if (request.inputs.size() > 1 &&
       std::any_of(request.inputs.begin(), request.inputs.end(), mesh_3_program::is_image_filename))
     throw Error("an image must be the only input file");

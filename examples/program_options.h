@@ -33,6 +33,11 @@ struct Files
   std::string input() const { return inputs.size() == 1 ? inputs.front() : inputs.front() + " and others"; }
 };
 
+/// The formats of spatial meshes and how their files end, for people.
+inline constexpr const char* spatial_formats =
+    ".mesh (Medit),\n.vtu (VTK), .msh (Gmsh), .inp (Abaqus, CalculiX), or of the boundary alone .off or .stl";
+inline constexpr const char* spatial_endings = ".mesh, .vtu, .msh, .inp, .off or .stl";
+
 inline void add_outputs(Options& options, Files& files, const std::string& formats)
 {
   options.texts("--output", "FILE", files.outputs,

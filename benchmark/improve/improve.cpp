@@ -7,11 +7,11 @@
 #include "../optimisation/optimisation_peers.h"
 
 #include <weft/improve_3.h>
-#include <weft/spatial/mesh/validate_3.h>
 #include <weft/IO/read_tetrahedral_mesh.h>
 #include <weft/IO/write_mesh_3.h>
 #include <weft/spatial/cgal/from_c3t3.h>
 #include <weft/spatial/cgal/to_c3t3.h>
+#include <weft/spatial/mesh/validate_3.h>
 
 #include <CGAL/Mesh_complex_3_in_triangulation_3.h>
 #include <CGAL/Mesh_triangulation_3.h>

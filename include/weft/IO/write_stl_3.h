@@ -9,33 +9,18 @@
 
 #include <weft/internal/cold.h>
 #include <weft/IO/internal/Boundary_3.h>
+#include <weft/IO/internal/little_endian.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <string>
 
 namespace weft {
 namespace internal {
-
-/// Appends the bytes of a number, lowest first on every machine.
-inline void append_little_endian(std::string& bytes, std::uint32_t value, int count = 4)
-{
-  for (int i = 0; i < count; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xFF);
-}
-
-inline void append_float(std::string& bytes, double value)
-{
-  static_assert(std::numeric_limits<float>::is_iec559, "STL's numbers are IEEE 754 singles");
-  const float rounded = static_cast<float>(value);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &rounded, sizeof bits);
-  append_little_endian(bytes, bits);
-}
 
 /// Unit normal by the right-hand rule; zero for a degenerate triangle, as the format allows.
 inline Xyz_3 unit_normal(const Xyz_3& a, const Xyz_3& b, const Xyz_3& c)
@@ -68,8 +53,8 @@ WEFT_COLD void write_stl(const std::string& filename, const Tetrahedral_mesh_3<K
     const auto &a = boundary.points[t[0]], &b = boundary.points[t[1]], &c = boundary.points[t[2]];
     record.clear();
     for (const auto& triple : {internal::unit_normal(a, b, c), a, b, c})
-      for (const double x : triple) internal::append_float(record, x);
-    internal::append_little_endian(record, 0, 2); // attributes
+      for (const double x : triple) internal::append_little_endian(record, static_cast<float>(x));
+    internal::append_little_endian(record, std::uint16_t(0)); // attributes
     out << record;
   }
   out.close();

@@ -7,13 +7,13 @@
 #define WEFT_IO_INTERNAL_VTU_ARRAY_WRITER_H
 
 #include <weft/internal/cold.h>
+#include <weft/IO/internal/little_endian.h>
 #include <weft/IO/internal/Text_writer.h>
 #include <weft/IO/internal/zlib_blocks.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -66,7 +66,7 @@ public:
         out_ << separator << x;
         separator = " ";
       } else {
-        append(static_cast<Number>(x));
+        append_little_endian(bytes_, static_cast<Number>(x));
       }
     }
     if (is_text_) out_ << '\n';
@@ -84,17 +84,6 @@ public:
   }
 
 private:
-  template <class Number>
-  void append(Number number)
-  {
-    std::conditional_t<sizeof(Number) == 8, std::uint64_t,
-                       std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint8_t>>
-        bits;
-    static_assert(sizeof bits == sizeof number);
-    std::memcpy(&bits, &number, sizeof bits);
-    for (std::size_t i = 0; i < sizeof bits; ++i) bytes_ += static_cast<char>(bits >> (8 * i) & 0xff);
-  }
-
   /// Of plain arrays the header and the numbers are one run of base64, of compressed ones two.
   void flush()
   {
@@ -104,7 +93,7 @@ private:
     if (is_compressed_) {
       std::vector<std::uint64_t> header;
       const std::string blocks = compressed_blocks(numbers, header);
-      for (const std::uint64_t x : header) append(x);
+      for (const std::uint64_t x : header) append_little_endian(bytes_, x);
       write_base64(bytes_);
       write_base64(blocks);
       out_ << '\n';
@@ -112,7 +101,7 @@ private:
       return;
     }
 #endif
-    append(static_cast<std::uint64_t>(numbers.size()));
+    append_little_endian(bytes_, static_cast<std::uint64_t>(numbers.size()));
     bytes_ += numbers;
     write_base64(bytes_);
     out_ << '\n';

@@ -8,13 +8,13 @@
 #include <weft/internal/parallel_for.h>
 #include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Dynamic_sizing_3.h>
 #include <weft/spatial/optimise/Move_shortener_3.h>
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/optimise/smoothers_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
-#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 
 #include <CGAL/number_utils.h>

@@ -8,9 +8,9 @@
 #include <weft/internal/Timer.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
 #include <weft/spatial/criteria/Tolerated_elements_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
-#include <weft/spatial/domain/project_on_location_3.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -11,6 +11,7 @@
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturb_options_3.h>
 #include <weft/spatial/optimise/Vertex_perturber_3.h>
+#include <weft/spatial/restricted/Cell_ids_3.h>
 
 #include <algorithm>
 #include <array>
@@ -26,7 +27,7 @@ namespace weft::internal {
 struct Sliver_3
 {
   double measure; ///< see `sliver_measure()`
-  std::array<int, 4> vertices;
+  Cell_ids_3 vertices;
 
   /// The worst first, then by ids.
   bool operator<(const Sliver_3& other) const
@@ -80,27 +81,13 @@ public:
   bool is_late() const { return timer_.seconds() >= options_.time_limit; }
   bool may_insert() const { return report_.insertions < most_insertions_ + report_.removals; }
 
-  static Sliver_3 sliver_of(Cell_handle c, double measure)
-  {
-    Sliver_3 sliver{measure, {}};
-    for (std::size_t i = 0; i < 4; ++i) sliver.vertices[i] = c->vertex(static_cast<int>(i))->id();
-    std::sort(sliver.vertices.begin(), sliver.vertices.end());
-    return sliver;
-  }
+  static Sliver_3 sliver_of(Cell_handle c, double measure) { return {measure, ids_of_cell(c)}; }
 
   /// The cell if it is there still and still a sliver.
   Cell_handle cell(const Sliver_3& sliver) const
   {
-    Vertex_handle v[4];
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto id = static_cast<std::size_t>(sliver.vertices[i]);
-      if (id >= mesh_.vertices().size()) return Cell_handle(); // removals have changed ids
-      v[i] = mesh_.vertices()[id];
-    }
-    Cell_handle c;
-    int i, j, k, l;
-    if (!mesh_.triangulation().is_cell(v[0], v[1], v[2], v[3], c, i, j, k, l)) return Cell_handle();
-    return c->subdomain() != 0 && is_sliver(c) ? c : Cell_handle();
+    const Cell_handle c = find_cell(mesh_, sliver.vertices); // removals have changed ids
+    return c != Cell_handle() && c->subdomain() != 0 && is_sliver(c) ? c : Cell_handle();
   }
 
   /// Whether a cell is gone or no sliver any more after everything has been tried.

@@ -13,6 +13,7 @@
 #include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
+#include <weft/spatial/restricted/Cell_ids_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
 #include <weft/spatial/restricted/Vertex_transaction_3.h>
 
@@ -65,8 +66,6 @@ public:
   }
 
 private:
-  using Cell = std::array<int, 4>; ///< by the ids of its vertices: handles don't outlive a change
-
   Vertex_handle vertex(int id) const { return mesh_.vertices()[static_cast<std::size_t>(id)]; }
 
   static double distance(const Point& p, const Point& q)
@@ -75,9 +74,9 @@ private:
   }
 
   /// Cells beside twins that are worse than asked for though no small angle forces them; the worst first.
-  std::vector<std::pair<double, Cell>> bad_cells() const
+  std::vector<std::pair<double, Cell_ids_3>> bad_cells() const
   {
-    std::vector<std::pair<double, Cell>> bad;
+    std::vector<std::pair<double, Cell_ids_3>> bad;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
       if (c->subdomain() == 0) continue;
       int twins = 0;
@@ -85,23 +84,16 @@ private:
       if (twins < 2) continue;
       const double x = judge_.measure(c);
       if (!(x > bound_) || forcing_angle(mesh_, c) < largest_angle_with_twins) continue;
-      Cell ids;
-      for (int i = 0; i < 4; ++i) ids[static_cast<std::size_t>(i)] = c->vertex(i)->id();
-      std::sort(ids.begin(), ids.end());
-      bad.push_back({-x, ids});
+      bad.push_back({-x, ids_of_cell(c)});
     }
     std::sort(bad.begin(), bad.end());
     return bad;
   }
 
   /// Tries the edges between twins of a cell, the longest first.
-  void mend(const Cell& ids, std::size_t& trials_left)
+  void mend(const Cell_ids_3& ids, std::size_t& trials_left)
   {
-    Cell_handle c;
-    int ignored[4];
-    if (!mesh_.triangulation().is_cell(vertex(ids[0]), vertex(ids[1]), vertex(ids[2]), vertex(ids[3]), c, ignored[0],
-                                       ignored[1], ignored[2], ignored[3]))
-      return;
+    if (find_cell(mesh_, ids) == Cell_handle()) return;
     std::vector<std::pair<double, std::array<int, 2>>> edges;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = i + 1; j < 4; ++j) {

@@ -11,6 +11,7 @@
 #include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/mesh/dihedral_angles_3.h>
 #include <weft/spatial/optimise/Perturbation_judge_3.h>
+#include <weft/spatial/restricted/Cell_ids_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
 #include <weft/spatial/restricted/Relocator_3.h>
 
@@ -65,8 +66,6 @@ public:
   }
 
 private:
-  using Cell = std::array<int, 4>; ///< by the ids of its vertices: handles don't outlive a move
-
   struct Group
   {
     std::vector<int> ids;
@@ -82,41 +81,24 @@ private:
   }
 
   /// Cells that have vertices with twins and are worse than asked for, the worst first.
-  std::vector<std::pair<double, Cell>> bad_cells() const
+  std::vector<std::pair<double, Cell_ids_3>> bad_cells() const
   {
-    std::vector<std::pair<double, Cell>> bad;
+    std::vector<std::pair<double, Cell_ids_3>> bad;
     for (const Cell_handle c : mesh_.triangulation().finite_cell_handles()) {
       if (c->subdomain() == 0) continue;
       bool has_twins = false;
       for (int i = 0; i < 4; ++i) has_twins = has_twins || mesh_.is_fixed_with_twin(c->vertex(i));
       if (!has_twins) continue;
       const double x = judge_.measure(c);
-      if (x > bound_) bad.push_back({-x, ids_of(c)});
+      if (x > bound_) bad.push_back({-x, ids_of_cell(c)});
     }
     std::sort(bad.begin(), bad.end());
     return bad;
   }
 
-  static Cell ids_of(Cell_handle c)
-  {
-    Cell ids;
-    for (int i = 0; i < 4; ++i) ids[static_cast<std::size_t>(i)] = c->vertex(i)->id();
-    std::sort(ids.begin(), ids.end());
-    return ids;
-  }
-
-  std::optional<Cell_handle> find(const Cell& ids) const
-  {
-    Cell_handle c;
-    int i, j, k, l;
-    if (!mesh_.triangulation().is_cell(vertex(ids[0]), vertex(ids[1]), vertex(ids[2]), vertex(ids[3]), c, i, j, k, l))
-      return std::nullopt;
-    return c;
-  }
-
   /// Tries groups of the vertices of a cell by turns, ever shorter moves.
   /// \returns the number of moves that were kept.
-  std::size_t mend(const Cell& ids)
+  std::size_t mend(const Cell_ids_3& ids)
   {
     std::vector<Group> groups;
     for (const int id : ids)
@@ -125,8 +107,8 @@ private:
         if (!group.ids.empty()) groups.push_back(std::move(group));
       }
     for (int k = 0; k < most_trials && !groups.empty(); ++k) {
-      const std::optional<Cell_handle> c = find(ids);
-      if (!c || !(judge_.measure(*c) > bound_)) return 0;
+      const Cell_handle c = find_cell(mesh_, ids);
+      if (c == Cell_handle() || !(judge_.measure(c) > bound_)) return 0;
       if (trials_left_ == 0 || !goes_on_()) return 0; // a trial takes long in a large mesh
       --trials_left_;
       const auto& group = groups[static_cast<std::size_t>(k) % groups.size()];

@@ -132,7 +132,7 @@ public:
     run_.end_stage();
     Mesh_report_3 result = report_;
     run_.report(result);
-    fill_report(mesh_, criteria_, refinement_.size_floor(), result, options_.min_dihedral_angle > 0);
+    fill_report(mesh_, criteria_, refinement_.size_floor(), options_.min_dihedral_angle > 0, result);
     refinement_.add_earlier_queries(result);
     return result;
   }

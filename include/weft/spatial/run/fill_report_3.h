@@ -103,8 +103,8 @@ inline void set_exhausted_if_bad(Mesh_report_3& report)
 /// Counts, worst elements and criteria of a mesh into `report`. Linear.
 /// \param is_perturbed see `count_forced_elements()`.
 template <class Restricted, class Kernel>
-void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteria, double size_floor,
-                 Mesh_report_3& report, bool is_perturbed = false)
+void fill_report(const Restricted& restricted, const Criteria_3<Kernel>& criteria, double size_floor, bool is_perturbed,
+                 Mesh_report_3& report)
 {
   const auto mesh = tetrahedral_mesh(restricted);
   report.vertices = mesh.points.size();

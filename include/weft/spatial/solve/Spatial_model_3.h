@@ -15,11 +15,11 @@
 #include <weft/solve/odt_jacobian_blocks.h>
 #include <weft/solve/Solver_options.h>
 #include <weft/spatial/criteria/Criteria_guard_3.h>
+#include <weft/spatial/domain/project_on_location_3.h>
 #include <weft/spatial/optimise/Dynamic_sizing_3.h>
 #include <weft/spatial/optimise/Move_shortener_3.h>
 #include <weft/spatial/optimise/Smooth_options_3.h>
 #include <weft/spatial/restricted/Mesh_relocation_3.h>
-#include <weft/spatial/domain/project_on_location_3.h>
 
 #include <CGAL/number_utils.h>
 

@@ -9,6 +9,7 @@
 #include <weft/internal/boxes/coordinates_3.h>
 #include <weft/internal/Disjoint_parts.h>
 #include <weft/spatial/surface/Polygon_soup_3.h>
+#include <weft/spatial/surface/surface_topology_3.h>
 #include <weft/spatial/surface/weld_points_3.h>
 
 #include <algorithm>
@@ -42,19 +43,6 @@ struct Group_side_3
   }
 };
 
-/// Calls `visit(first, last)` for the sides in each edge.
-/// \param sides sorted.
-template <class Visit>
-void for_each_edge_of_groups(const std::vector<Group_side_3>& sides, const Visit& visit)
-{
-  for (auto first = sides.begin(); first != sides.end();) {
-    auto last = first;
-    while (last != sides.end() && last->low == first->low && last->high == first->high) ++last;
-    visit(first, last);
-    first = last;
-  }
-}
-
 /// Groups that meet in an edge where one of them is open are parts of one surface. If there are several of these, each
 /// nearly closed and all turned the same way, each bounds a solid; one that is turned the other way may be a cavity.
 /// O(n log n) for n corners.
@@ -82,13 +70,13 @@ Surface_solids_3<K> solids_of_groups(const Polygon_soup_3<K>& soup)
   const auto is_open = [](auto first, auto last, std::size_t group) {
     return std::count_if(first, last, [&](const Group_side_3& s) { return s.group == group; }) % 2 == 1;
   };
-  for_each_edge_of_groups(sides, [&](auto first, auto last) {
+  for_each_edge(sides, [&](auto first, auto last) {
     if (first->group == (last - 1)->group) return;
     if (std::none_of(first, last, [&](const Group_side_3& s) { return is_open(first, last, s.group); })) return;
     for (auto s = first; s != last; ++s) united.unite(first->group, s->group);
   });
   std::vector<std::size_t> edges(n, 0), open(n, 0);
-  for_each_edge_of_groups(sides, [&](auto first, auto last) {
+  for_each_edge(sides, [&](auto first, auto last) {
     std::map<std::size_t, std::size_t> count;
     for (; first != last; ++first) ++count[united.find(first->group)];
     for (const auto& [surface, times] : count) ++edges[surface], open[surface] += times % 2;

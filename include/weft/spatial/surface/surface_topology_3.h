@@ -64,8 +64,10 @@ inline std::vector<Surface_side_3> sorted_sides(const std::vector<std::array<std
 }
 
 /// Calls `visit(first, last)` for the sides of each edge.
-template <class Visit>
-void for_each_edge(const std::vector<Surface_side_3>& sides, const Visit& visit)
+/// \tparam Side has `low` and `high` as Surface_side_3 does.
+/// \param sides those of one edge next to each other.
+template <class Side, class Visit>
+void for_each_edge(const std::vector<Side>& sides, const Visit& visit)
 {
   for (auto first = sides.begin(); first != sides.end();) {
     auto last = first;
