@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <random>
@@ -909,7 +910,8 @@ TEST_CASE("readers keep solids, objects, groups, materials and colours apart")
   using Names = std::vector<std::string>;
   using Groups = std::vector<std::size_t>;
   const auto read = [](const std::string& extension, const std::string& text) {
-    const std::string name = "mend_surface_test_groups." + extension;
+    const std::string name =
+        (std::filesystem::temp_directory_path() / ("weft_mend_surface_test_groups." + extension)).string();
     std::ofstream(name) << text;
     const Soup soup = weft::IO::read_surface<K>(name);
     std::remove(name.c_str());
