@@ -175,7 +175,7 @@ inline void run_weft(const weft::Polyhedral_oracle_3<Spatial_kernel>& oracle, co
   const auto mesh = weft::tetrahedral_mesh(result.restricted);
   measure(mesh, input, m);
   weft::Validity_3 validity = weft::validate_3(mesh);
-  validity += weft::check_criteria_3(mesh, criteria);
+  validity += weft::check_criteria_3(mesh, criteria, oracle);
   validity += weft::check_distances_3(mesh, oracle);
   validity += weft::check_features_3(mesh, input.complex);
   m.checked = validity.ok();
