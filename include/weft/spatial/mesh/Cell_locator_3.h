@@ -57,7 +57,7 @@ public:
       for (const std::size_t v : cells[c]) boxes[c].add(points_[v][0], points_[v][1], points_[v][2]);
     boxes_ = Box_hierarchy_3(boxes);
     std::vector<Surface_triangle_3<K>> triangles;
-    for_each_facet(cell_facets(cells), [&](auto first, auto last) {
+    for_each_facet(cells, [&](auto first, auto last) {
       if (last - first != 1) return;
       const auto v = outward_vertices(cells[first->cell], first->opposite);
       Surface_triangle_3<K> t;

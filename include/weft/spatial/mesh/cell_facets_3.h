@@ -45,38 +45,75 @@ inline bool same_sense(const std::array<std::size_t, 3>& a, const std::array<std
   return b[(start + 1) % 3] == a[1];
 }
 
+/// Facets are found by their first vertices, the smallest ones: a cell has three facets at its smallest vertex, and one
+/// at the next.
+class Facets_by_first_vertex
+{
+public:
+  /// \param cells whose vertices must exist; has to outlive this.
+  explicit Facets_by_first_vertex(const std::vector<std::array<std::size_t, 4>>& cells) : cells_(cells)
+  {
+    for (const auto& cell : cells) {
+      const auto [first, second] = smallest(cell);
+      if (second >= counts_.size()) counts_.resize(second + 1, 0);
+      counts_[first] += 3;
+      ++counts_[second];
+    }
+  }
+
+  std::size_t vertices() const { return counts_.size(); } ///< some more may be no facet's first
+  /// How many facets have v as their first vertex; each side counts.
+  std::size_t count(std::size_t v) const { return counts_[v]; }
+
+  /// The facets whose first vertices are in [begin, end), in order. O(n + m log k) time for n cells, m facets and k at
+  /// a vertex.
+  std::vector<Cell_facet_3> between(std::size_t begin, std::size_t end) const
+  {
+    std::vector<std::size_t> last(end - begin, 0); // of each vertex' facets, once they are all there
+    std::size_t sum = 0;
+    for (std::size_t v = begin; v < end; ++v) {
+      last[v - begin] = sum;
+      sum += counts_[v];
+    }
+    const auto is_in = [&](std::size_t v) { return v >= begin && v < end; };
+    std::vector<Cell_facet_3> facets(sum);
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      const auto [first, second] = smallest(cells_[c]);
+      if (!is_in(first) && !is_in(second)) continue;
+      for (int i = 0; i < 4; ++i) {
+        const auto vertices = sorted(outward_vertices(cells_[c], i));
+        if (is_in(vertices[0])) facets[last[vertices[0] - begin]++] = {vertices, c, i};
+      }
+    }
+    // Ties between the cells of a facet are broken by their indices.
+    const auto is_before = [](const Cell_facet_3& a, const Cell_facet_3& b) {
+      if (a.vertices[1] != b.vertices[1]) return a.vertices[1] < b.vertices[1];
+      return a.vertices[2] != b.vertices[2] ? a.vertices[2] < b.vertices[2] : a.cell < b.cell;
+    };
+    const auto at = [&](std::size_t i) { return facets.begin() + static_cast<std::ptrdiff_t>(i); };
+    for (std::size_t v = 0, from = 0; v < last.size(); from = last[v++]) std::sort(at(from), at(last[v]), is_before);
+    return facets;
+  }
+
+private:
+  /// The smallest vertex of a cell and the next.
+  static std::array<std::size_t, 2> smallest(const std::array<std::size_t, 4>& cell)
+  {
+    const auto a = std::minmax(cell[0], cell[1]), b = std::minmax(cell[2], cell[3]);
+    if (a.first < b.first) return {a.first, (std::min)(a.second, b.first)};
+    return {b.first, (std::min)(b.second, a.first)};
+  }
+
+  const std::vector<std::array<std::size_t, 4>>& cells_;
+  std::vector<std::size_t> counts_;
+};
+
 /// All facets of all cells; those of several cells stand beside each other. Vertices of cells must exist. O(n) time
 /// where vertices have boundedly many cells: facets are distributed to their first vertices, and sorted there.
 inline std::vector<Cell_facet_3> cell_facets(const std::vector<std::array<std::size_t, 4>>& cells)
 {
-  std::size_t n = 0;
-  for (const auto& cell : cells) n = (std::max)(n, 1 + *std::max_element(cell.begin(), cell.end()));
-  std::vector<std::size_t> end(n, 0); // of each vertex' facets, once they are all there
-  for (const auto& cell : cells)
-    for (int i = 0; i < 4; ++i) {
-      const auto v = outward_vertices(cell, i);
-      ++end[(std::min)({v[0], v[1], v[2]})];
-    }
-  for (std::size_t v = 0, sum = 0; v < n; ++v) {
-    const std::size_t count = end[v];
-    end[v] = sum;
-    sum += count;
-  }
-  std::vector<Cell_facet_3> facets(4 * cells.size());
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    for (int i = 0; i < 4; ++i) {
-      const auto vertices = sorted(outward_vertices(cells[c], i));
-      facets[end[vertices[0]]++] = {vertices, c, i};
-    }
-  // Ties between the cells of a facet are broken by their indices.
-  const auto is_before = [](const Cell_facet_3& a, const Cell_facet_3& b) {
-    if (a.vertices[1] != b.vertices[1]) return a.vertices[1] < b.vertices[1];
-    return a.vertices[2] != b.vertices[2] ? a.vertices[2] < b.vertices[2] : a.cell < b.cell;
-  };
-  for (std::size_t v = 0, begin = 0; v < n; begin = end[v++])
-    std::sort(facets.begin() + static_cast<std::ptrdiff_t>(begin), facets.begin() + static_cast<std::ptrdiff_t>(end[v]),
-              is_before);
-  return facets;
+  const Facets_by_first_vertex facets(cells);
+  return facets.between(0, facets.vertices());
 }
 
 /// Calls `visit(first, last)` with the range of entries of each facet.
@@ -88,6 +125,20 @@ void for_each_facet(const std::vector<Cell_facet_3>& facets, const Visit& visit)
     while (last != facets.end() && last->vertices == first->vertices) ++last;
     visit(first, last);
     first = last;
+  }
+}
+
+/// The same for the facets of cells, in the order of `cell_facets()` but with an eighth of its memory: it goes through
+/// the cells eight times.
+template <class Visit>
+void for_each_facet(const std::vector<std::array<std::size_t, 4>>& cells, const Visit& visit)
+{
+  constexpr std::size_t blocks = 8;
+  const Facets_by_first_vertex facets(cells);
+  const std::size_t least = 4 * cells.size() / blocks;
+  for (std::size_t begin = 0, end = 0; begin < facets.vertices(); begin = end) {
+    for (std::size_t sum = 0; end < facets.vertices() && sum <= least; ++end) sum += facets.count(end);
+    for_each_facet(facets.between(begin, end), visit);
   }
 }
 

@@ -23,7 +23,7 @@ Validity_3 check_boundary_3(const Tetrahedral_mesh_3<K>& mesh)
   Validity_3 validity;
   std::map<std::array<std::size_t, 3>, std::size_t> wanting; // the facets not found yet
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) wanting.emplace(internal::sorted(mesh.facets[f]), f);
-  internal::for_each_facet(internal::cell_facets(mesh.cells), [&](auto first, auto last) {
+  internal::for_each_facet(mesh.cells, [&](auto first, auto last) {
     const bool alone = last - first == 1;
     if (!alone && mesh.subdomains[first->cell] == mesh.subdomains[(first + 1)->cell]) return;
     const auto found = wanting.find(first->vertices);

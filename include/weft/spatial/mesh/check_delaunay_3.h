@@ -24,7 +24,7 @@ Validity_3 check_delaunay_3(const Tetrahedral_mesh_3<K>& mesh)
   Validity_3 validity;
   const typename K::Side_of_oriented_sphere_3 side{};
   const auto& p = mesh.points;
-  internal::for_each_facet(internal::cell_facets(mesh.cells), [&](auto first, auto last) {
+  internal::for_each_facet(mesh.cells, [&](auto first, auto last) {
     if (last - first != 2) return;
     const auto& cell = mesh.cells[first->cell];
     const std::size_t across = mesh.cells[(first + 1)->cell][(first + 1)->opposite];

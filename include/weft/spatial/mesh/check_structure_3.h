@@ -85,7 +85,7 @@ void check_isolated(const Tetrahedral_mesh_3<K>& mesh, Validity_3& validity)
 template <class K>
 void check_facets(const Tetrahedral_mesh_3<K>& mesh, Validity_3& validity)
 {
-  for_each_facet(cell_facets(mesh.cells), [&](auto first, auto last) {
+  for_each_facet(mesh.cells, [&](auto first, auto last) {
     if (last - first > 2)
       validity.add(Fault_kind_3::structure, "a facet has " + std::to_string(last - first) + " cells",
                    listed(first->vertices));

@@ -28,7 +28,7 @@ template <class K>
 std::vector<Boundary_facet_3> subdomain_boundaries(const Tetrahedral_mesh_3<K>& mesh)
 {
   std::vector<Boundary_facet_3> boundary;
-  for_each_facet(cell_facets(mesh.cells), [&](auto first, auto last) {
+  for_each_facet(mesh.cells, [&](auto first, auto last) {
     if (last - first == 2 && mesh.subdomains[first->cell] == mesh.subdomains[(first + 1)->cell]) return;
     for (auto side = first; side != last; ++side)
       boundary.push_back({mesh.subdomains[side->cell], outward_vertices(mesh.cells[side->cell], side->opposite)});

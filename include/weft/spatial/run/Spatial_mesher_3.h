@@ -285,13 +285,28 @@ private:
       if (twins > 0) turn_diagonals(mesh_, guard(), options_.seed + 8 + round);
       if (twins == 0 && round > 0) break;
     }
+    if (has_twins) mend_flat_cells(goes_on);
     if (options_.min_dihedral_angle < Perturb_options_3::as_far_as_it_goes) run_.may_go_on();
+  }
+
+  /// A few flat cells between twins that are left are bad luck, and other random moves mend most of them.
+  void mend_flat_cells(const std::function<bool()>& goes_on)
+  {
+    for (unsigned k = 0; k < most_chances && goes_on(); ++k) {
+      Mesh_report_3 now;
+      count_forced_elements(mesh_, criteria_, true, now);
+      if (now.bad_cells.elements == 0 || now.bad_cells.elements > few_cells) return;
+      turn_diagonals(mesh_, guard(), options_.seed + 20 + 2 * k);
+      move_twins(mesh_, guard(), options_.seed + 21 + 2 * k, 1, goes_on);
+    }
   }
 
   // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
   static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.3;
   static constexpr unsigned rounds_of_twins = 5;   ///< insertions
   static constexpr double share_of_trials = 0.125; ///< that later rounds have to move twins
+  static constexpr unsigned most_chances = 8;      ///< that flat cells get to be mended
+  static constexpr std::size_t few_cells = 10;     ///< flat ones; more are none by chance
 
   const Oracle& oracle_;
   Criteria_3<Kernel> criteria_;
