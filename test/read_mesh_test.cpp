@@ -22,6 +22,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -417,4 +419,55 @@ TEST_CASE("cells are oriented alike, and those turned over in space are kept and
   CHECK(result.inverted_cells > 0);
   CHECK(result.mesh.cells.size() == mesh.cells.size());
   CHECK(result.mesh.facets.size() == mesh.facets.size());
+}
+
+TEST_CASE("facets visited in blocks are all facets, each once with its cells, in the order of the whole list")
+{
+  std::mt19937 random(3);
+  for (const std::size_t n : {1, 2, 5, 40, 400}) {
+    // Any four vertices, one of them often repeated: what a damaged file may have.
+    std::vector<std::array<std::size_t, 4>> cells(n);
+    for (auto& cell : cells)
+      for (std::size_t& v : cell) v = random() % (4 + n / 5);
+    std::map<std::array<std::size_t, 3>, std::vector<std::size_t>> known;
+    for (std::size_t c = 0; c < n; ++c)
+      for (std::size_t i = 0; i < 4; ++i)
+        known[weft::internal::sorted<3>({cells[c][(i + 1) % 4], cells[c][(i + 2) % 4], cells[c][(i + 3) % 4]})]
+            .push_back(c);
+    std::vector<std::array<std::size_t, 3>> in_blocks, in_whole;
+    weft::internal::for_each_facet(cells, [&](auto first, auto last) {
+      in_blocks.push_back(first->vertices);
+      std::vector<std::size_t> sides;
+      for (auto side = first; side != last; ++side) sides.push_back(side->cell);
+      REQUIRE(sides == known.at(first->vertices));
+    });
+    weft::internal::for_each_facet(weft::internal::cell_facets(cells),
+                                   [&](auto first, auto) { in_whole.push_back(first->vertices); });
+    CHECK(in_blocks == in_whole);
+    CHECK(in_blocks.size() == known.size());
+  }
+}
+
+TEST_CASE("components of random graphs are counted as flooding counts them")
+{
+  std::mt19937 random(4);
+  for (std::size_t n = 2; n < 200; n = n * 3 / 2 + 1) {
+    std::vector<std::array<std::size_t, 2>> edges(n / 2);
+    for (auto& edge : edges) edge = {random() % n * 1000, random() % n * 1000};
+    std::set<std::size_t> left;
+    for (const auto& edge : edges) left.insert(edge.begin(), edge.end());
+    std::size_t components = 0;
+    for (; !left.empty(); ++components) {
+      std::vector<std::size_t> stack{*left.begin()};
+      left.erase(left.begin());
+      while (!stack.empty()) {
+        const std::size_t v = stack.back();
+        stack.pop_back();
+        for (const auto& [a, b] : edges)
+          for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)})
+            if (from == v && left.erase(to) > 0) stack.push_back(to);
+      }
+    }
+    CHECK(weft::internal::number_of_components(edges) == components);
+  }
 }

@@ -5,6 +5,7 @@
 #ifndef WEFT_SPATIAL_MESH_SUBDOMAIN_BOUNDARIES_3_H
 #define WEFT_SPATIAL_MESH_SUBDOMAIN_BOUNDARIES_3_H
 
+#include <weft/internal/Disjoint_parts.h>
 #include <weft/spatial/mesh/cell_facets_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 
@@ -36,22 +37,20 @@ std::vector<Boundary_facet_3> subdomain_boundaries(const Tetrahedral_mesh_3<K>& 
   return boundary;
 }
 
-/// Number of connected components of a graph given by its edges.
+/// Number of connected components of a graph given by its edges. O(n log n).
 inline std::size_t number_of_components(const std::vector<std::array<std::size_t, 2>>& edges)
 {
-  std::map<std::size_t, std::size_t> parent;
-  const auto root = [&parent](std::size_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
+  std::vector<std::size_t> vertices;
+  for (const auto& edge : edges) vertices.insert(vertices.end(), edge.begin(), edge.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const auto number = [&vertices](std::size_t v) {
+    return static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin());
   };
-  for (const auto& edge : edges)
-    for (const std::size_t v : edge) parent.emplace(v, v);
-  std::size_t components = parent.size();
-  for (const auto& [v, w] : edges) {
-    const std::size_t a = root(v), b = root(w);
-    components -= a != b;
-    parent[a] = b;
-  }
+  Disjoint_parts parts(vertices.size());
+  for (const auto& [v, w] : edges) parts.unite(number(v), number(w));
+  std::size_t components = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i) components += parts.find(i) == i;
   return components;
 }
 
