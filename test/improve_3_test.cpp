@@ -146,6 +146,18 @@ TEST_CASE("a ball full of slivers becomes a good mesh whose boundary vertices li
   }
 }
 
+TEST_CASE("a fine interior stays fine under a coarse boundary")
+{
+  const Mesh mesh = fixtures::ball(60, 900).mesh;
+  const auto [better, report] = weft::improve_3(mesh);
+  check_valid(better);
+  CHECK(10 * better.points.size() > 7 * mesh.points.size());
+  CHECK(10 * better.points.size() < 14 * mesh.points.size());
+  CHECK(10 * better.cells.size() > 6 * mesh.cells.size());
+  CHECK(report.after.smallest_dihedral.degrees > 15);
+  CHECK(volume_of(better, 1) == Approx(volume_of(mesh, 1)).epsilon(0.05));
+}
+
 TEST_CASE("the manual's lines improve a mesh from a file and write it")
 {
   weft::IO::write_mesh_3("part.msh", ball());

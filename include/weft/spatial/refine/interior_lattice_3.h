@@ -66,11 +66,12 @@ std::vector<typename Oracle::Kernel::Point_3> interior_lattice(const Oracle& ora
   return in_order;
 }
 
-/// Drops the points that lie in a surface Delaunay ball of a restricted facet: inserted, they could end up on the
-/// boundary of the mesh. Linear in the points and in the balls that are larger than the clearance, expected.
-/// \param spacing,clearance as above.
-template <class Restricted, class Point>
-void drop_encroaching(const Restricted& mesh, double spacing, double clearance, std::vector<Point>& points)
+/// Calls `visit(number, facet)` for the points that lie in the surface Delaunay ball of a restricted facet. Linear in
+/// the points and in the balls, expected. \param spacing of the grid in which points are looked up. \param least_radius
+/// of the balls.
+template <class Restricted, class Point, class Visit>
+void visit_encroaching(const Restricted& mesh, double spacing, double least_radius, const std::vector<Point>& points,
+                       const Visit& visit)
 {
   using Key = std::array<long, 3>;
   const auto key_of = [spacing](double x, double y, double z) {
@@ -80,10 +81,8 @@ void drop_encroaching(const Restricted& mesh, double spacing, double clearance, 
   std::map<Key, std::vector<std::size_t>> buckets;
   for (std::size_t i = 0; i < points.size(); ++i)
     buckets[key_of(points[i].x(), points[i].y(), points[i].z())].push_back(i);
-  std::vector<char> encroaches(points.size(), false);
   for (const auto& f : mesh.facets()) {
-    // No point comes closer to the boundary, on which the centers lie.
-    if (f.cell == typename Restricted::Cell_handle() || f.squared_radius < clearance * clearance) continue;
+    if (f.cell == typename Restricted::Cell_handle() || f.squared_radius < least_radius * least_radius) continue;
     const double r = std::sqrt(f.squared_radius);
     const Key low = key_of(f.steiner.x() - r, f.steiner.y() - r, f.steiner.z() - r),
               high = key_of(f.steiner.x() + r, f.steiner.y() + r, f.steiner.z() + r);
@@ -93,9 +92,18 @@ void drop_encroaching(const Restricted& mesh, double spacing, double clearance, 
           const auto bucket = buckets.find({{x, y, z}});
           if (bucket == buckets.end()) continue;
           for (const std::size_t i : bucket->second)
-            if (CGAL::to_double(CGAL::squared_distance(points[i], f.steiner)) < f.squared_radius) encroaches[i] = true;
+            if (CGAL::to_double(CGAL::squared_distance(points[i], f.steiner)) < f.squared_radius) visit(i, f);
         }
   }
+}
+
+/// Drops the points that encroach: inserted, they could end up on the boundary of the mesh.
+/// \param spacing,clearance as above: no point comes closer to the boundary, on which the centers of balls lie.
+template <class Restricted, class Point>
+void drop_encroaching(const Restricted& mesh, double spacing, double clearance, std::vector<Point>& points)
+{
+  std::vector<char> encroaches(points.size(), false);
+  visit_encroaching(mesh, spacing, clearance, points, [&](std::size_t i, const auto&) { encroaches[i] = true; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!encroaches[i]) points[kept++] = points[i];

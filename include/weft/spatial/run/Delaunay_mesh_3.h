@@ -49,8 +49,9 @@ public:
         oracle_(boundary_.complex()),
         criteria_(internal::criteria_of_mesh(given_, sizing_, options))
   {
-    const internal::Initial_vertices_3<K> initial{
+    internal::Initial_vertices_3<K> initial{
         given_.points, boundary_.locations(), options.fixed_vertices, false, 0, 0, 1};
+    initial.spacings = internal::mean_edges_of_vertices(given_);
     Mesh_options_3 meshing = Mesh_options_3::refinement();
     meshing.lattice = false;
     meshing.size_floor = 0.1 * sizing_.shortest_edge();

@@ -98,7 +98,7 @@ public:
     run_.begin_stage("surface", Stage::refinement);
     goes_on_ = goes_on_ && refinement_.refine_surface();
     run_.begin_stage("lattice", Stage::seeding);
-    if (goes_on_ && initial_) report_.coarsened += insert_interior(std::move(interior_), criteria_, mesh_);
+    if (goes_on_ && initial_) report_.coarsened += insert_interior(interior_, criteria_, mesh_);
     if (goes_on_ && !initial_ && options_.lattice && criteria_.size.is_constant()) insert_lattice();
     run_.begin_stage("interior", Stage::refinement);
     goes_on_ = goes_on_ && refinement_.refine(1, true);
@@ -312,7 +312,7 @@ private:
   Criteria_3<Kernel> criteria_;
   const Mesh_options_3& options_;
   const Initial_vertices_3<Kernel>* initial_ = nullptr;
-  std::vector<Point> interior_; ///< of the initial vertices, those to be inserted later
+  Interior_vertices_3<Point> interior_; ///< of the initial vertices, those to be inserted later
   int inserted_at_ = 0;         ///< version of the mesh when the initial vertices were in
   Restricted mesh_;
   std::optional<Criteria_guard_3<Restricted>> guard_; ///< from when refinement has ended

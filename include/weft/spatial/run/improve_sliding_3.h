@@ -169,7 +169,8 @@ Tetrahedral_mesh_3<K> mesh_own_domain(const Tetrahedral_mesh_3<K>& mesh, const I
     if (attempt == 1) report.notes = boundary.complex().changes;
     const Boundary_sizing_3<K> sizing(boundary.complex().points, boundary.complex().triangles);
     const Polyhedral_oracle_3<K> oracle(boundary.complex());
-    const Initial_vertices_3<K> initial{mesh.points, boundary.locations(), options.fixed_vertices, true};
+    Initial_vertices_3<K> initial{mesh.points, boundary.locations(), options.fixed_vertices, true};
+    initial.spacings = mean_edges_of_vertices(mesh);
     auto result = mesh_from_vertices(oracle, initial, mesh, sizing, options, report);
     boundary.restore_names(sizing, result);
     const bool is_alike = report.manifold && topology_of_subdomains(result) == topology_of_subdomains(mesh);
