@@ -35,11 +35,13 @@ public:
   using Cell_handle = typename Restricted::Cell_handle;
   using Vertex_handle = typename Restricted::Vertex_handle;
 
-  Badness_measure_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria, double factor)
-      : mesh_(&mesh), criteria_(&criteria), factor_(factor)
+  /// \param sees_ridges whether facets are measured at the ridges and tips that they miss, too.
+  Badness_measure_3(const Restricted& mesh, const Criteria_3<Kernel>& criteria, double factor, bool sees_ridges = true)
+      : mesh_(&mesh), criteria_(&criteria), factor_(factor), sees_ridges_(sees_ridges)
   {}
 
   double factor() const { return factor_; }
+  bool sees_ridges() const { return sees_ridges_; }
   const Criteria_3<Kernel>& criteria() const { return *criteria_; }
 
   /// A cell of the domain: size and shape, and what its subdomain or the user asks for.
@@ -135,7 +137,7 @@ public:
     if (with_shape && criteria_->facet_shape > 0) badness.add(ratio / (factor_ * criteria_->facet_shape), bad_shape);
     if (const double bound = approximation(f.steiner, f.patch); bound > 0) {
       badness.add(approximation_error(f) / bound, bad_approximation);
-      if (!badness.is_bad()) badness.add(worst_missed_point(f).ratio, bad_approximation);
+      if (sees_ridges_ && !badness.is_bad()) badness.add(worst_missed_point(f).ratio, bad_approximation);
     }
     if (has_own) {
       if (own->second.size)
@@ -382,6 +384,7 @@ private:
   const Restricted* mesh_;
   const Criteria_3<Kernel>* criteria_;
   double factor_;
+  bool sees_ridges_;
 };
 
 } // namespace weft::internal

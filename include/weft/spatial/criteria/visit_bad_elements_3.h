@@ -30,13 +30,14 @@ struct Ball_3
 /// Calls `on_edge(crease edge, badness, ball)`, `on_facet(facet, badness, ball)` and `on_cell(cell, badness, ball)` for
 /// each bad element with its Delaunay ball, that of the surface or crease for the former two, and `on_vertex(vertex)`
 /// for each boundary vertex without a topological disk. Linear.
+/// \param sees_ridges see Badness_measure_3.
 template <class Restricted, class On_edge, class On_facet, class On_cell, class On_vertex>
 void visit_bad_elements(const Restricted& mesh, const Criteria_3<typename Restricted::Kernel>& criteria,
                         const On_edge& on_edge, const On_facet& on_facet, const On_cell& on_cell,
-                        const On_vertex& on_vertex)
+                        const On_vertex& on_vertex, bool sees_ridges = true)
 {
   using Ball = Ball_3<typename Restricted::Kernel>;
-  const Badness_measure_3<Restricted> measure(mesh, criteria, 1);
+  const Badness_measure_3<Restricted> measure(mesh, criteria, 1, sees_ridges);
   for (const auto& e : mesh.creases().edges()) {
     const Badness_3 badness = measure.crease_edge(e);
     if (badness.is_bad()) on_edge(e, badness, Ball{e.steiner, e.squared_radius});

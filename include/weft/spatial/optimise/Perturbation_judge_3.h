@@ -58,7 +58,10 @@ public:
   /// \param guard has to live as long as this object.
   Perturbation_judge_3(const Restricted& mesh, Criteria_guard_3<Restricted>& guard) : mesh_(&mesh), guard_(guard) {}
 
-  double measure(Cell_handle c) const { return sliver_measure(cosines(c)); }
+  /// From here on only smallest dihedral angles count, those between sheets like any other.
+  void judge_by_smallest_alone() { by_smallest_alone_ = true, is_about_angles_ = false; }
+
+  double measure(Cell_handle c) const { return measure(cosines(c)); }
 
   /// The extreme dihedral angles of a cell that has its circumcenter, as `relative()` has them.
   Dihedral_cosines_3 cosines(Cell_handle c) const
@@ -93,7 +96,7 @@ public:
       if (!Restricted::is_at_box(c)) {
         c->set_circumcenter(circumcenter_of_cell_3<Kernel>(c));
         const Dihedral_cosines_3 x = cosines(c);
-        f = {c, sliver_measure(x), x.smallest, false, false};
+        f = {c, measure(x), x.smallest, false, false};
       }
       filling_.push_back(f);
     }
@@ -127,7 +130,7 @@ public:
     bool limit_is_final = false;
     double worst = -1;
     const auto exceeds = [&](const Dihedral_cosines_3& x) {
-      worst = sliver_measure(x);
+      worst = measure(x);
       if (x.smallest > floor_) return true;
       if (worst < limit) return false;
       if (!limit_is_final)
@@ -141,12 +144,12 @@ public:
       std::array<Point, 4> p;
       if (!corners(facet, p)) continue;
       Dihedral_cosines_3 x = cosines_of_extreme_dihedrals(p[0], p[1], p[2], p[3]);
-      if (sliver_measure(x) <= worst) continue;
+      if (measure(x) <= worst) continue;
       const Point o = circumcenter_3<Kernel>(p[0], p[1], p[2], p[3]);
       if (may_be_forced(x))
         x = relative(x, forcing_angle(mesh_->oracle(), mesh_->incidence(), locations(facet),
                                       {{&p[0], &p[1], &p[2], &p[3]}}, o, largest_crease_angle));
-      if (sliver_measure(x) <= worst || !is_inside(o)) continue;
+      if (measure(x) <= worst || !is_inside(o)) continue;
       if (exceeds(x)) return no_good;
     }
     return worst;
@@ -201,6 +204,8 @@ public:
   void forget(int id) { guard_.forget(id); }
 
 private:
+  double measure(const Dihedral_cosines_3& x) const { return by_smallest_alone_ ? x.smallest : sliver_measure(x); }
+
   bool may_be_forced(const Dihedral_cosines_3& x) const { return is_about_angles_ && x.smallest > wanted_cosine_; }
 
   /// The dihedral angles of a cell that fills the wedge at an edge of the input in proportion to those wanted there:
@@ -271,6 +276,7 @@ private:
 
   const Restricted* mesh_;
   Criteria_guard_3<Restricted>& guard_;
+  bool by_smallest_alone_ = false;
   bool is_about_angles_ = mesh_->oracle().has_mirror_images();
   double wanted_cosine_ = cosine_of_degrees(least_part * largest_forcing_angle);
   Vertex_location_3 location_{3, 0};

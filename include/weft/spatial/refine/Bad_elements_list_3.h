@@ -135,7 +135,9 @@ public:
     facets_.erase(
         std::remove_if(facets_.begin(), facets_.end(), [this](const Bad_facet& f) { return !find_facet(mesh_, f.id); }),
         facets_.end());
-    if (std::all_of(facets_.begin(), facets_.end(), [](const Bad_facet& f) { return f.is_stuck; })) look_again();
+    if (measure_.sees_ridges() &&
+        std::all_of(facets_.begin(), facets_.end(), [](const Bad_facet& f) { return f.is_stuck; }))
+      look_again();
     // Records are numbered in order of creation, so ties don't depend on memory.
     std::stable_sort(facets_.begin(), facets_.end(),
                      [](const Bad_facet& a, const Bad_facet& b) { return a.ratio > b.ratio; });

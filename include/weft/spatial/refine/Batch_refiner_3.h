@@ -14,6 +14,7 @@
 #include <weft/spatial/refine/Bad_elements_list_3.h>
 #include <weft/spatial/refine/Disk_mender_3.h>
 #include <weft/spatial/refine/Multiple_choice.h>
+#include <weft/spatial/refine/Refinement_policy_3.h>
 #include <weft/spatial/refine/Steiner_batch_3.h>
 #include <weft/spatial/refine/Steiner_proposals_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
@@ -56,11 +57,13 @@ public:
   /// \param size_floor no Steiner point is inserted closer than that to a vertex.
   /// \param settled what `settle()` returned for a refiner of this mesh with the same criteria; 0 if there was none.
   Batch_refiner_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, double factor, bool with_cells,
-                  double size_floor, unsigned seed, int settled = 0)
+                  double size_floor, unsigned seed, int settled = 0,
+                  const Refinement_policy_3& policy = Refinement_policy_3())
       : mesh_(mesh),
         with_cells_(with_cells),
-        measure_(mesh, criteria, factor),
-        batch_(mesh, measure_, size_floor * size_floor),
+        policy_(policy),
+        measure_(mesh, criteria, factor, policy.sees_ridges),
+        batch_(mesh, measure_, size_floor * size_floor, policy),
         bad_(mesh, measure_, batch_.chooser(), with_cells),
         acute_(mesh, measure_, batch_),
         proposals_(mesh, criteria.has_functions() ? 1 : mesh.threads()),
@@ -88,11 +91,12 @@ public:
     acute_.begin_batch();
     Batch_3 result;
     result.bad += choose_edges();
-    acute_.choose_mirror_images();
+    if (policy_.mirrors) acute_.choose_mirror_images();
     result.bad += choose_facets();
-    if (batch_.size() == 0)
+    const auto has_room = [this] { return batch_.size() == 0 || !policy_.sorts_dimensions; };
+    if (has_room())
       result.bad += disks_.choose_at_vertices([this](const Restricted_facet& f) { choose(f, false, false); });
-    if (batch_.size() == 0) result.bad += choose_cells();
+    if (has_room()) result.bad += choose_cells();
     insert_chosen();
     result.inserted = batch_.size();
     // Without cells, the surface will be refined once more.
@@ -186,7 +190,9 @@ private:
           },
           [&](std::size_t k, const auto& find, Zone& zone, std::size_t& candidates) {
             ++candidates;
-            return batch_.chooser().choose_by(cells[picked[k]].cell, find, zone);
+            const Cell_handle c = cells[picked[k]].cell;
+            return policy_.chooses_points ? batch_.chooser().choose_by(c, find, zone)
+                                          : find(c->circumcenter(), c, zone);
           });
       for (std::size_t k = 0; k < picked.size() && goes_on; ++k) {
         goes_on =
@@ -231,15 +237,15 @@ private:
   Zone_result find_best(const Restricted_facet& f, const Find& find, Zone& zone, std::size_t& candidates) const
   {
     Point p = f.steiner;
-    const auto missed = measure_.worst_missed_point(f);
+    const auto missed = policy_.sees_ridges ? measure_.worst_missed_point(f) : typename Measure::Missed_point{p};
     const double radius = std::sqrt(f.squared_radius);
     ++candidates;
     if (missed.ratio > 1) {
       if (missed.is_vertex) p = missed.point;
     }
     // Between the sides of an acute edge it isn't the best point that ends refinement but the mirror image.
-    else if (!mesh_.oracle().attract(p, 0.4 * radius, 0.5 * radius, f.patch) &&
-             !mesh_.oracle().is_at_acute_edge(f.steiner, radius)) {
+    else if (!(policy_.follows_folds && mesh_.oracle().attract(p, 0.4 * radius, 0.5 * radius, f.patch)) &&
+             policy_.chooses_points && !mesh_.oracle().is_at_acute_edge(f.steiner, radius)) {
       return batch_.chooser().choose_by(f, find, zone);
     }
     const Zone_result result = batch_.chooser().find_by(p, f, find, zone);
@@ -270,9 +276,13 @@ private:
     if (squared_radius(c) < batch_.squared_floor()) return Choice_3::impossible;
     const bool needed = must_be_refined(measure_.cell(c).reasons, false);
     if (!needed && acute_.is_left(p, squared_radius(c))) return Choice_3::later;
-    Zone_result result = proposal ? batch_.take(*proposal) : batch_.find_best(c);
-    if (result == Zone_result::found) return batch_.accept({3, c->subdomain()});
-    if (result == Zone_result::no_conflict) result = batch_.find(p, c);
+    Zone_result result = proposal                 ? batch_.take(*proposal)
+                         : policy_.chooses_points ? batch_.find_best(c)
+                                                  : batch_.find(p, c);
+    if (policy_.chooses_points) {
+      if (result == Zone_result::found) return batch_.accept({3, c->subdomain()});
+      if (result == Zone_result::no_conflict) result = batch_.find(p, c);
+    }
     if (result != Zone_result::found) return batch_.failure(result);
     if (const Crease_edge* e = batch_.encroached_edge()) return acute_.choose(*e, needed);
     if (const Restricted_facet* f = batch_.encroached_facet()) return choose(*f, true, needed);
@@ -309,6 +319,7 @@ private:
 
   Restricted& mesh_;
   bool with_cells_;
+  Refinement_policy_3 policy_;
   Measure measure_;
   Steiner_batch_3<Restricted> batch_;
   Bad_elements_list_3<Restricted> bad_;

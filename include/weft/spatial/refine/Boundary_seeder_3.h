@@ -12,6 +12,7 @@
 #include <weft/spatial/domain/boundary_samples_3.h>
 #include <weft/spatial/refine/Crease_divider_3.h>
 #include <weft/spatial/refine/Mirror_twins_3.h>
+#include <weft/spatial/refine/Refinement_policy_3.h>
 
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
@@ -38,8 +39,14 @@ public:
 
   /// \param most_vertices of the mesh. Feature vertices and the fewest points that make a polygon of a crease are
   ///   inserted all the same.
-  Boundary_seeder_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, std::size_t most_vertices)
-      : mesh_(mesh), criteria_(criteria), most_vertices_(most_vertices), twins_(mesh)
+  Boundary_seeder_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, std::size_t most_vertices,
+                    const Refinement_policy_3& policy = Refinement_policy_3())
+      : mesh_(mesh),
+        criteria_(criteria),
+        most_vertices_(most_vertices),
+        policy_(policy),
+        has_twins_(policy.mirrors && mesh.oracle().has_mirror_images()),
+        twins_(mesh)
   {}
 
   void insert_corners()
@@ -53,7 +60,7 @@ public:
   void insert_crease_seeds()
   {
     const auto& oracle = mesh_.oracle();
-    if (oracle.has_mirror_images()) {
+    if (has_twins_) {
       insert_crease_seeds_with_twins();
       return;
     }
@@ -61,7 +68,8 @@ public:
       const auto& points = mesh_.creases().points(c);
       const Crease_divider_3<Kernel> divider(points, criteria_,
                                              mesh_.incidence().patches_of_crease(static_cast<int>(c)));
-      const std::size_t least = points.front() == points.back() ? 3 : 1, parts = divider.parts(least);
+      const std::size_t least = points.front() == points.back() ? 3 : 1,
+                        parts = policy_.shapes_creases ? divider.parts(least) : least;
       for (std::size_t k = oracle.crease_is_closed(static_cast<int>(c)) ? 0 : 1; k < parts; ++k) {
         if (k >= least && !has_room()) break;
         mesh_.insert(divider.at(static_cast<double>(k) / static_cast<double>(parts)), {1, static_cast<int>(c)});
@@ -159,7 +167,7 @@ private:
   void insert_with_twins(const Point& p, const Vertex_location_3& location)
   {
     const Vertex_handle v = mesh_.insert(p, location);
-    if (v != Vertex_handle() && mesh_.oracle().has_mirror_images()) insert_twins(v);
+    if (v != Vertex_handle() && has_twins_) insert_twins(v);
   }
 
   void insert_twins(Vertex_handle v)
@@ -191,6 +199,8 @@ private:
   Restricted& mesh_;
   const Criteria_3<Kernel>& criteria_;
   std::size_t most_vertices_;
+  Refinement_policy_3 policy_;
+  bool has_twins_;
   std::vector<std::size_t> seeded_; ///< by patch, how many seeds it has been given
   Mirror_twins_3<Restricted> twins_;
   std::vector<std::vector<Point>> twins_on_crease_;

@@ -92,7 +92,7 @@ public:
     Point p =
         f.squared_radius < batch_.squared_floor() ? shaken(f.steiner, std::sqrt(f.squared_radius), f.patch) : f.steiner;
     // A vertex right beside an acute edge and its mirror image leave no room for facets of good shape between them.
-    mesh_.oracle().attract_to_acute_edge(p, std::sqrt(f.squared_radius));
+    if (batch_.policy().mirrors) mesh_.oracle().attract_to_acute_edge(p, std::sqrt(f.squared_radius));
     return p;
   }
 

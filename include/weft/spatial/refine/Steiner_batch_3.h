@@ -9,6 +9,7 @@
 #include <weft/spatial/criteria/Badness_measure_3.h>
 #include <weft/spatial/refine/crease_steiner_point_3.h>
 #include <weft/spatial/refine/Mirror_twins_3.h>
+#include <weft/spatial/refine/Refinement_policy_3.h>
 #include <weft/spatial/refine/Steiner_chooser_3.h>
 #include <weft/spatial/refine/Steiner_proposals_3.h>
 #include <weft/spatial/restricted/Conflict_zone_3.h>
@@ -49,9 +50,17 @@ public:
   using Chooser = Steiner_chooser_3<Restricted>;
 
   /// \param squared_floor no point is accepted closer than that to a vertex, but for the topology.
-  Steiner_batch_3(Restricted& mesh, const Measure& measure, double squared_floor)
-      : mesh_(mesh), squared_floor_(squared_floor), chooser_(mesh, measure, squared_floor), twins_(mesh)
+  Steiner_batch_3(Restricted& mesh, const Measure& measure, double squared_floor,
+                  const Refinement_policy_3& policy = Refinement_policy_3())
+      : mesh_(mesh),
+        squared_floor_(squared_floor),
+        policy_(policy),
+        chooser_(mesh, measure, squared_floor),
+        twins_(mesh),
+        has_twins_(policy.mirrors && mesh.oracle().has_mirror_images())
   {}
+
+  const Refinement_policy_3& policy() const { return policy_; }
 
   /// Begins a batch of at most `room` points.
   void begin(std::size_t room)
@@ -140,7 +149,7 @@ public:
   /// The Steiner point of a crease edge.
   Choice_3 choose(const Crease_edge& e)
   {
-    const Point p = crease_steiner_point(mesh_, e);
+    const Point p = policy_.shapes_creases ? crease_steiner_point(mesh_, e) : e.steiner;
     if (nearest_end(e, p) < squared_floor_) return Choice_3::impossible;
     const Zone_result result = find(p, mesh_.triangulation().locate(p, e.source->cell()));
     return result == Zone_result::found ? accept({1, e.steiner_crease}) : failure(result);
@@ -199,9 +208,10 @@ private:
 
   Restricted& mesh_;
   double squared_floor_;
+  Refinement_policy_3 policy_;
   Chooser chooser_;
   Mirror_twins_3<Restricted> twins_;
-  bool has_twins_ = mesh_.oracle().has_mirror_images();
+  bool has_twins_;
   std::vector<Chosen> chosen_; ///< the first `used_` are those of the batch
   std::size_t used_ = 0, room_ = 0;
   int number_ = 0;

@@ -15,6 +15,7 @@
 #include <CGAL/number_utils.h>
 #include <CGAL/squared_distance_3.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -108,6 +109,22 @@ void drop_encroaching(const Restricted& mesh, double spacing, double clearance, 
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!encroaches[i]) points[kept++] = points[i];
   points.resize(kept);
+}
+
+/// Inserts the lattice for a constant size.
+/// \param most_vertices of the mesh.
+template <class Restricted>
+void insert_lattice(Restricted& mesh, double size, std::size_t most_vertices)
+{
+  // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
+  constexpr double part = 0.98, clearance = 0.3;
+  const double spacing = part * size;
+  const std::size_t room = most_vertices - (std::min)(most_vertices, mesh.vertices().size());
+  auto points = interior_lattice(mesh.oracle(), spacing, clearance * spacing, room, mesh.threads());
+  drop_encroaching(mesh, spacing, clearance * spacing, points);
+  std::vector<int> subdomains;
+  for (const auto& p : points) subdomains.push_back(mesh.oracle().subdomain(p));
+  mesh.insert(points, subdomains);
 }
 
 } // namespace weft::internal

@@ -9,6 +9,8 @@
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/domain/Polyhedral_oracle_3.h>
 #include <weft/spatial/local/Improve_options_3.h>
+#include <weft/spatial/mesh/assemble_mesh_3.h>
+#include <weft/spatial/mesh/Element_soup_3.h>
 #include <weft/spatial/mesh/Tetrahedral_mesh_3.h>
 #include <weft/spatial/restricted/extract_mesh_3.h>
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
@@ -65,6 +67,13 @@ public:
     report_ = mesher.report();
     restricted_.emplace(mesher.take_mesh());
   }
+
+  /// The same of points, cells and labels, which `assemble_mesh_3()` makes a mesh: all that is needed of a mesh in
+  /// arrays of one's own.
+  /// \throws as above, and as `assemble_mesh_3()` does.
+  explicit Delaunay_mesh_3(Element_soup_3<K> soup, const Improve_options_3& options = Improve_options_3())
+      : Delaunay_mesh_3(assemble_mesh_3(std::move(soup)).mesh, options)
+  {}
 
   Delaunay_mesh_3(const Delaunay_mesh_3&) = delete; // its parts know each other
   Delaunay_mesh_3& operator=(const Delaunay_mesh_3&) = delete;

@@ -13,6 +13,7 @@
 #include <weft/spatial/criteria/Criteria_3.h>
 #include <weft/spatial/refine/Batch_refiner_3.h>
 #include <weft/spatial/refine/Boundary_seeder_3.h>
+#include <weft/spatial/refine/Refinement_policy_3.h>
 #include <weft/spatial/refine/Vertex_set_3.h>
 
 #include <CGAL/Bbox_3.h>
@@ -33,13 +34,15 @@ public:
 
   /// Everything has to live as long as this object; criteria may change between calls.
   Refinement_3(Restricted& mesh, const Criteria_3<Kernel>& criteria, const Mesh_options_3& options, Run& run,
-               Mesh_report_3& report)
+               Mesh_report_3& report, const Refinement_policy_3& policy = Refinement_policy_3())
       : mesh_(mesh),
         criteria_(criteria),
         options_(options),
         run_(run),
         report_(report),
-        seeder_(mesh, criteria, options.max_vertices)
+        policy_(policy),
+        seeder_(mesh, criteria, options.max_vertices, policy),
+        leaves_knife_edges_(!policy.mirrors)
   {}
 
   /// Leaves small elements unrefined at all acute edges. Elsewhere than where twins end refinement that is the rule.
@@ -129,7 +132,7 @@ private:
                            std::size_t& batches, bool& go_on)
   {
     Batch_refiner_3<Restricted> refiner(mesh_, criteria_, factor, with_cells, size_floor(), options_.seed + 1 + luck,
-                                        factor == 1 ? settled_ : 0);
+                                        factor == 1 ? settled_ : 0, policy_);
     if (leaves_knife_edges_) refiner.leave_knife_edges();
     bool begins_again = false;
     for (; go_on && !begins_again && batches < most_batches; ++batches) {
@@ -173,12 +176,13 @@ private:
   const Mesh_options_3& options_;
   Run& run_;
   Mesh_report_3& report_;
+  Refinement_policy_3 policy_;
   Boundary_seeder_3<Restricted> seeder_;
   Oracle_counts_3 earlier_;  ///< of triangulations that were built again
   int settled_ = 0;          ///< see `Batch_refiner_3::settle()`
   std::size_t bad_left_ = 0; ///< elements that refinement looked at last and left
   bool has_seeded_missed_ = false;
-  bool leaves_knife_edges_ = false;
+  bool leaves_knife_edges_;
 };
 
 } // namespace weft::internal

@@ -99,7 +99,8 @@ public:
     goes_on_ = goes_on_ && refinement_.refine_surface();
     run_.begin_stage("lattice", Stage::seeding);
     if (goes_on_ && initial_) report_.coarsened += insert_interior(interior_, criteria_, mesh_);
-    if (goes_on_ && !initial_ && options_.lattice && criteria_.size.is_constant()) insert_lattice();
+    if (goes_on_ && !initial_ && options_.lattice && criteria_.size.is_constant())
+      insert_lattice(mesh_, criteria_.size.constant(), options_.max_vertices);
     run_.begin_stage("interior", Stage::refinement);
     goes_on_ = goes_on_ && refinement_.refine(1, true);
     if (goes_on_ && initial_ && initial_->only_manifold) goes_on_ = check_manifold_3(tetrahedral_mesh(mesh_)).ok();
@@ -150,17 +151,6 @@ public:
   Restricted take_mesh() { return std::move(mesh_); }
 
 private:
-  void insert_lattice()
-  {
-    const double spacing = lattice_spacing * criteria_.size.constant();
-    const std::size_t room = options_.max_vertices - (std::min)(options_.max_vertices, mesh_.vertices().size());
-    auto points = interior_lattice(oracle_, spacing, lattice_clearance * spacing, room, mesh_.threads());
-    drop_encroaching(mesh_, spacing, lattice_clearance * spacing, points);
-    std::vector<int> subdomains;
-    for (const Point& p : points) subdomains.push_back(oracle_.subdomain(p));
-    mesh_.insert(points, subdomains);
-  }
-
   /// Interleaves what Alg. 5 does, in another order: smoothing the coarse mesh and refining it then, as there, takes
   /// more vertices, since it moves vertices away from the folds that attracted them. Criteria come first, then vertices
   /// are taken away as long as they hold, and smoothing, which keeps them too, makes room for more of that. What
@@ -301,8 +291,6 @@ private:
     }
   }
 
-  // The nearer the lattice comes to the boundary, the fewer vertices fill the gap.
-  static constexpr double lattice_spacing = 0.98, lattice_clearance = 0.3;
   static constexpr unsigned rounds_of_twins = 5;   ///< insertions
   static constexpr double share_of_trials = 0.125; ///< that later rounds have to move twins
   static constexpr unsigned most_chances = 8;      ///< that flat cells get to be mended
