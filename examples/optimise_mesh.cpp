@@ -21,7 +21,7 @@ int main()
   weft::Element_soup_3<K> soup;
   for (std::size_t i = 0; i < m * m * m; ++i) { // thinner and thinner in z
     const auto x = double(i % m), y = double(i / m % m), z = double(i / m / m);
-    soup.points.emplace_back(x / n, y / n, std::pow(z / n, 1.7));
+    soup.points.emplace_back(x / n, y / n, std::pow(z / n, 2.2));
   }
   const std::size_t steps[] = {1, m, m * m};
   for (std::size_t i = 0; i < n * n * n; ++i) {
@@ -35,7 +35,8 @@ int main()
   }
   weft::Delaunay_mesh_3<K> delaunay(soup);
   weft::Optimise_options_3 options;
-  options.perturbation.target = 15; // degrees
+  options.coarsen = false;
+  options.perturbation.target = 25; // degrees
   const auto report = weft::optimise_3(delaunay.restricted(), delaunay.criteria(), options, weft::Lloyd_3());
   const auto mesh = delaunay.mesh();
   std::cout << weft::measure_quality_3(weft::assemble_mesh_3(soup).mesh).smallest_dihedral.degrees
