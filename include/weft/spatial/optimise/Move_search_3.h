@@ -72,7 +72,11 @@ public:
 
   /// Everything has to live as long as this object.
   Move_search_3(const Restricted& mesh, Criteria_guard_3<Restricted>& guard, const Perturb_options_3& options)
-      : mesh_(mesh), options_(options), judge_(mesh, guard), search_(mesh, judge_, options), without_(mesh)
+      : mesh_(mesh),
+        options_(options),
+        judge_(mesh, guard, options.target),
+        search_(mesh, judge_, options),
+        without_(mesh)
   {}
 
   /// Whether directions play a part when a vertex moves. On creases there are but two ways to go: directions there only

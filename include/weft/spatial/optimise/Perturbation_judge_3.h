@@ -56,7 +56,10 @@ public:
   static constexpr double least_gain = 1e-4;
 
   /// \param guard has to live as long as this object.
-  Perturbation_judge_3(const Restricted& mesh, Criteria_guard_3<Restricted>& guard) : mesh_(&mesh), guard_(guard) {}
+  /// \param target the smallest dihedral angle that is to be reached, in degrees.
+  Perturbation_judge_3(const Restricted& mesh, Criteria_guard_3<Restricted>& guard, double target = wanted)
+      : mesh_(&mesh), guard_(guard), wants_more_(target > wanted)
+  {}
 
   /// From here on only smallest dihedral angles count, those between sheets like any other.
   void judge_by_smallest_alone() { by_smallest_alone_ = true, is_about_angles_ = false; }
@@ -210,12 +213,14 @@ private:
 
   /// The dihedral angles of a cell that fills the wedge at an edge of the input in proportion to those wanted there:
   /// the perturber leaves a cell alone that has a good part of the angle. A large angle counts as a small one does,
-  /// which it doesn't come with there.
-  static Dihedral_cosines_3 relative(const Dihedral_cosines_3& x, double forcing_angle)
+  /// which it doesn't come with there. Where more is wanted, a cell with room for it is measured as it is from there
+  /// on: a mesh would never get better than its wedges otherwise.
+  Dihedral_cosines_3 relative(const Dihedral_cosines_3& x, double forcing_angle) const
   {
     if (forcing_angle > largest_forcing_angle) return x;
     const double attainable = (std::max)((std::min)(part_of_angle * forcing_angle, wanted), least_part * forcing_angle);
     const double degrees = degrees_of_cosine(x.smallest);
+    if (wants_more_ && degrees >= attainable && attainable >= wanted) return x;
     const double acute = degrees >= attainable ? -1. : cosine_of_degrees(degrees * wanted / attainable);
     return {(std::max)(acute, stand_in_for_largest(x.largest)), x.largest};
   }
@@ -277,6 +282,7 @@ private:
   const Restricted* mesh_;
   Criteria_guard_3<Restricted>& guard_;
   bool by_smallest_alone_ = false;
+  bool wants_more_; ///< than what is wanted by default
   bool is_about_angles_ = mesh_->oracle().has_mirror_images();
   double wanted_cosine_ = cosine_of_degrees(least_part * largest_forcing_angle);
   Vertex_location_3 location_{3, 0};

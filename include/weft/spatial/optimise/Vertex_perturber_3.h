@@ -56,7 +56,7 @@ public:
         guard_(guard),
         options_(options),
         report_(report),
-        judge_(mesh, guard),
+        judge_(mesh, guard, options.target),
         search_(mesh, judge_, options),
         moves_(mesh, guard, options),
         block_(mesh, guard, options, judge_),
