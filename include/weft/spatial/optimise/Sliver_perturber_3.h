@@ -83,6 +83,7 @@ private:
       smallest = (std::max)(smallest, x.smallest);
       if (most > 0 && sliver_measure(x) > target) cells.emplace_back(sliver_measure(x), c);
     }
+    below_target_ = cells.size();
     if (cells.size() > most) {
       const auto last = cells.begin() + static_cast<std::ptrdiff_t>(most);
       std::nth_element(cells.begin(), last, cells.end(),
@@ -175,9 +176,9 @@ private:
   void mend_worst()
   {
     std::size_t last_progress = report_.trials;
-    course_.assign(1, {report_.trials, report_.after});
     const std::size_t batch = (std::max)(least_batch, mesh_.vertices().size() / batch_divisor);
     look_around(batch);
+    course_.assign(1, {report_.trials, report_.after, below_target_});
     for (int idle = 0; !worst_.empty() && idle < most_idle && report_.trials < 2 * last_progress + patience &&
                        !is_out_of_reach() && goes_on();) {
       mender_.set_bound(std::nextafter(worst_.back().measure, -1.0)); // the last is a sliver, too
@@ -186,22 +187,33 @@ private:
       for (std::size_t k = 0; k < worst.size() && !mender_.is_late(); ++k)
         mended += mender_.mend(worst[k], k < very_worst ? 1 + idle : 0);
       look_around(batch);
-      course_.emplace_back(report_.trials, report_.after);
+      course_.push_back({report_.trials, report_.after, below_target_});
       ++report_.passes;
       idle = worst_.empty() || worst_.front().measure < worst.front().measure - 1e-4 ? 0 : idle + 1;
       if (idle == 0 || mended > worst.size() / 4) last_progress = report_.trials;
     }
   }
 
+  struct Milestone
+  {
+    std::size_t trials;
+    double smallest;          ///< dihedral angle
+    std::size_t below_target; ///< cells
+  };
+
   /// Whether the target would take many times all the trials so far at the pace of the latter half of them. Narrow
-  /// walls, for instance, leave no room.
+  /// walls, for instance, leave no room. The smallest angle rises in leaps: as long as cells below the target become
+  /// fewer, it isn't out of reach.
   bool is_out_of_reach() const
   {
-    const std::size_t first = course_.front().first;
+    const std::size_t first = course_.front().trials;
     if (options_.target >= Perturb_options_3::as_far_as_it_goes || report_.trials < first + patience) return false;
     const std::size_t middle = first + (report_.trials - first) / 2;
-    const auto half = std::find_if(course_.begin(), course_.end(), [&](const auto& c) { return c.first >= middle; });
-    return 2 * options_.persistence * (report_.after - half->second) < options_.target - report_.after;
+    const auto half = std::find_if(course_.begin(), course_.end(), [&](const auto& c) { return c.trials >= middle; });
+    const auto is_slow = [this](double gain, double missing) { return 2 * options_.persistence * gain < missing; };
+    return is_slow(report_.after - half->smallest, options_.target - report_.after) &&
+           is_slow(static_cast<double>(half->below_target) - static_cast<double>(below_target_),
+                   static_cast<double>(below_target_));
   }
 
   static constexpr double last_bound = 20;  ///< degrees, up to where the whole mesh is worked on
@@ -220,7 +232,8 @@ private:
   Perturb_report_3 report_;
   Mender mender_;
   std::vector<Sliver_3> worst_;
-  std::vector<std::pair<std::size_t, double>> course_; ///< trials and smallest angles after each pass over the worst
+  std::size_t below_target_ = 0;  ///< cells, when the worst were last listed
+  std::vector<Milestone> course_; ///< after each pass over the worst
 };
 
 } // namespace weft::internal
