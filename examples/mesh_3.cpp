@@ -41,8 +41,8 @@ using mesh_3_program::Result;
 const std::string before_options =
     "usage: mesh_3 INPUT... [--size [LABEL:]S|auto]... [--size-field FILE] [--gradation K]\n"
     "              [--approximation [LABEL:]E]... [--facet-shape R] [--cell-shape R] [--sharp-angle DEG]\n"
-    "              [--topology] [--manifold] [--min-dihedral DEG] [--no-optimise] [--no-perturb] [--strict]\n"
-    "              [--weld PART] [--cap SHARE] [--iso VALUE] [--inside above|below] [--labels]\n"
+    "              [--topology] [--manifold] [--min-dihedral DEG] [--effort E] [--no-optimise] [--no-perturb]\n"
+    "              [--strict] [--weld PART] [--cap SHARE] [--iso VALUE] [--inside above|below] [--labels]\n"
     "              [--name LABEL:NAME]... [--order 1|2]\n"
     "              [--output FILE]... [--report FILE.json] [--histogram FILE.svg] [--seed N] [--threads N]\n"
     "              [--time-limit SECONDS] [--max-vertices N] [--quiet]\n\n"
@@ -74,7 +74,7 @@ struct Request : command_line::Files
   double iso = 0;
   weft::Feature_options features;
   weft::Mesh_options_3 options;
-  double min_dihedral = 0;
+  double min_dihedral = 0, effort = 0;
   mesh_3_program::Mending mending;
   bool approximation_is_given = false, no_optimise = false, no_perturb = false;
 };
@@ -109,6 +109,9 @@ void add_options(command_line::Options& options, Request& request)
   options.number("--min-dihedral", "DEG", 0, 90, request.min_dihedral,
                  "smallest dihedral angle to perturb slivers for, 90 to go as far as possible; without\nit 20, if it "
                  "can be reached");
+  options.number("--effort", "E", 0, 1, request.effort,
+                 "work on quality after refinement, instead of the three options around this one: 0\nnone, 0.5 as "
+                 "without them, 1 as far as possible, which takes minutes");
   options.flag("--no-optimise", request.no_optimise, "neither coarsening nor smoothing after refinement");
   options.flag("--no-perturb", request.no_perturb, "no perturbation of slivers");
   options.flag("--strict", request.mending.strict,
@@ -193,6 +196,8 @@ void check(const command_line::Options& options, Request& request)
   check_shape(options, "--facet-shape", request.bounds.facet_shape);
   check_shape(options, "--cell-shape", request.bounds.cell_shape);
   command_line::check_min_dihedral(options, request.min_dihedral);
+  if (options.has("--effort") && (options.has("--min-dihedral") || request.no_optimise || request.no_perturb))
+    throw Error("--effort excludes --min-dihedral, --no-optimise and --no-perturb");
   if (request.mending.strict && (options.has("--weld") || options.has("--cap")))
     throw Error("--strict excludes --weld and --cap");
   check_labels(request);
@@ -205,6 +210,7 @@ void check(const command_line::Options& options, Request& request)
   }
   if (options.has("--min-dihedral")) run.min_dihedral_angle = request.min_dihedral;
   if (request.no_perturb) run.min_dihedral_angle = 0;
+  if (options.has("--effort")) run.effort = request.effort;
   run.give_up_creases = !options.has("--sharp-angle");
   if (options.has("--sharp-angle")) request.features.least_open_crease = 0;
 }

@@ -156,6 +156,9 @@ TEST_CASE("bad usage gives status 1, one line on stderr and no file")
                                         "cube.off --cell-shape nan",
                                         "cube.off --sharp-angle 181",
                                         "cube.off --min-dihedral 71",
+                                        "cube.off --effort 1.1",
+                                        "cube.off --effort 0.5 --no-perturb",
+                                        "cube.off --effort 0.5 --min-dihedral 20",
                                         "cube.off --topology=yes",
                                         "cube.off --size 1 --size 2",
                                         "cube.off --output m.svg",
@@ -424,10 +427,11 @@ TEST_CASE("help and version go to stdout, and the help names every option of the
   const Outcome help = folder.run("--help"), version = folder.run("--version");
   CHECK(help.status == 0);
   CHECK(help.err == "");
-  for (const char* option : {"--size",       "--approximation", "--facet-shape",  "--cell-shape",  "--sharp-angle",
-                             "--topology",   "--manifold",      "--min-dihedral", "--no-optimise", "--no-perturb",
-                             "--output",     "--report",        "--histogram",    "--seed",        "--threads",
-                             "--time-limit", "--quiet",         "--cap",          "--strict",      "--weld"})
+  for (const char* option :
+       {"--size",     "--approximation", "--facet-shape", "--cell-shape",  "--sharp-angle", "--topology",
+        "--manifold", "--min-dihedral",  "--effort",      "--no-optimise", "--no-perturb",  "--output",
+        "--report",   "--histogram",     "--seed",        "--threads",     "--time-limit",  "--quiet",
+        "--cap",      "--strict",        "--weld"})
     CHECK(contains(help.out, std::string("\n  ") + option));
   CHECK(version.status == 0);
   CHECK(version.out == "mesh_3 (weft) " WEFT_VERSION "\n");

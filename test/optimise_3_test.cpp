@@ -15,6 +15,7 @@
 #include <weft/spatial/optimise/smooth_3.h>
 #include <weft/spatial/optimise/smoothers_3.h>
 #include <weft/spatial/restricted/check_restricted_3.h>
+#include <weft/spatial/run/Optimisation_plan_3.h>
 
 #include <CGAL/Delaunay_triangulation_3.h>
 
@@ -666,6 +667,82 @@ TEST_CASE("the whole run meets all criteria with fewer vertices than refinement 
   }
 }
 
+TEST_CASE("more effort never ends with a smaller angle: 0 is refinement, 0.5 the default")
+{
+  for (const Surface& surface : {surfaces::torus(48, 24), surfaces::cylinder(40)}) {
+    const Oracle oracle = oracle_of(surface);
+    const Criteria criteria = criteria_of(0.35, 0.02);
+    const auto mesh = [&](const Options& options) { return weft::make_mesh_3(oracle, criteria, options); };
+    const auto arrays = [](const auto& result) { return weft::tetrahedral_mesh(result.restricted); };
+    double last = 0;
+    for (const double effort : {0., 0.2, 0.4, 0.5, 0.57, 0.64}) {
+      INFO("effort " << effort);
+      Options options;
+      options.effort = effort;
+      const auto result = mesh(options);
+      CHECK(result.report.ok());
+      CHECK(result.report.smallest_dihedral >= last);
+      CHECK(result.report.smallest_dihedral >= (effort <= 0.5 ? 40 * effort : 20));
+      last = result.report.smallest_dihedral;
+      check_consistent(result.restricted, result.report);
+      if (effort == 0) CHECK(same(arrays(result), arrays(mesh(refinement()))));
+      if (effort == 0.5) CHECK(same(arrays(result), arrays(mesh(Options()))));
+      options.threads = 3;
+      CHECK(same(arrays(result), arrays(mesh(options))));
+    }
+  }
+}
+
+TEST_CASE(
+    "a plan leaves time for perturbation, the more of it the less there is, and none of it hangs on time without a "
+    "limit")
+{
+  using weft::internal::Optimisation_plan_3;
+  const auto plan = [](const Options& options, double left) {
+    Optimisation_plan_3 result(options, true);
+    result.fit(1, left);
+    return result;
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double angle : {20., 25., 90.}) {
+    Options options;
+    options.min_dihedral_angle = angle;
+    int coarsens = 0, sweeps = 0;
+    for (const double left : {0.5, 2., 5., 20., 100., infinity}) {
+      const Optimisation_plan_3 now = plan(options, left);
+      CHECK(now.coarsens() >= coarsens);
+      CHECK(now.sweeps() >= sweeps);
+      CHECK(now.sweeps() <= options.smoothing_sweeps);
+      CHECK(now.time_before_perturbation(left) <= left);
+      coarsens = now.coarsens();
+      sweeps = now.sweeps();
+    }
+    CHECK(!plan(options, 0.5).coarsens());
+    CHECK(coarsens);
+    CHECK(sweeps == options.smoothing_sweeps);
+    Options unperturbed = options;
+    unperturbed.min_dihedral_angle = 0;
+    CHECK(plan(unperturbed, 0.5).coarsens());
+  }
+  int steps = 0;
+  double target = 0;
+  for (int k = 0; k <= 100; ++k) {
+    Options options;
+    options.effort = k / 100.;
+    const Optimisation_plan_3 now = plan(options, infinity);
+    CHECK(now.target() >= target);
+    CHECK(now.steps() >= steps);
+    for (int step = 1; step < now.steps(); ++step) CHECK(now.target_of_step(step) > now.target_of_step(step - 1));
+    target = now.target();
+    steps = now.steps();
+  }
+  CHECK(target == 20);
+  Options options;
+  options.min_dihedral_angle = 26.5;
+  const Optimisation_plan_3 now = plan(options, infinity);
+  CHECK(now.target_of_step(now.steps() - 1) == 26.5);
+}
+
 TEST_CASE("the whole run is the same to the last bit, also for several threads")
 {
   for (const Case& c : cases()) {
@@ -806,4 +883,9 @@ TEST_CASE("options of smoothing and coarsening out of range are refused")
   coarsening_refused([](auto& o) { o.most_passes = -1; });
   coarsening_refused([](auto& o) { o.least_gain = not_a_number; });
   coarsening_refused([](auto& o) { o.time_limit = -1; });
+  for (const double effort : {-0.1, 1.1, not_a_number}) {
+    Options options;
+    options.effort = effort;
+    CHECK_THROWS_AS(weft::make_mesh_3(oracle, criteria, options), weft::Option_error);
+  }
 }

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 namespace weft {
 
@@ -89,6 +90,12 @@ struct Mesh_options_3
   /// Smallest dihedral angle in degrees to perturb slivers for; 0: no perturbation; 90: as far as it goes, which takes
   /// minutes without a `time_limit`, and which that limit may end without the run counting as stopped early.
   double min_dihedral_angle = 20;
+  /// From 0 to 1: how much work is done after refinement. If given, it takes the place of the three above. 0: none; up
+  /// to 0.5 the target of perturbation rises to 20 degrees, and from 0.25 on vertices are taken away; 0.5: the defaults
+  /// above; from there on slivers are perturbed for a degree more at each thirtieth, and 1 is as far as it goes, which
+  /// takes minutes. It stands for amounts of work, not for time: the mesh is the same on all machines. A `time_limit`
+  /// may leave some out.
+  std::optional<double> effort;
   double size_floor = 0; ///< no Steiner point closer to a vertex, in the input's units; 0: chosen from the criteria
   bool lattice = true;   ///< fill thick parts with a body-centred cubic lattice where the size is constant
   bool give_up_creases = true; ///< of those found by angle, where criteria can't hold with them; for `mesh_surface_3()`
@@ -118,6 +125,7 @@ struct Mesh_options_3
     };
     require(smoothing_sweeps >= 0, "smoothing_sweeps must not be negative");
     require(min_dihedral_angle >= 0 && min_dihedral_angle <= 90, "min_dihedral_angle must lie in [0, 90] degrees");
+    require(!effort || (*effort >= 0 && *effort <= 1), "effort must lie in [0, 1]");
     require(size_floor >= 0, "size_floor must not be negative");
     require(initial_loosening >= 1, "initial_loosening must be at least 1");
     require(time_limit >= 0, "time_limit must not be negative");

@@ -26,6 +26,7 @@
 #include <weft/spatial/restricted/Restricted_delaunay_3.h>
 #include <weft/spatial/run/fill_report_3.h>
 #include <weft/spatial/run/Initial_vertices_3.h>
+#include <weft/spatial/run/Optimisation_plan_3.h>
 #include <weft/spatial/run/Refinement_3.h>
 #include <weft/spatial/run/require_thickness_3.h>
 #include <weft/spatial/run/restart_where_bad_3.h>
@@ -53,6 +54,7 @@ public:
       : oracle_(oracle),
         criteria_(criteria),
         options_(options),
+        plan_(options, true),
         mesh_(oracle, options.threads),
         run_(options.visitor, options.time_limit),
         refinement_(mesh_, criteria_, options, run_, report_)
@@ -65,6 +67,7 @@ public:
       : Spatial_mesher_3(oracle, criteria, options)
   {
     initial_ = &initial;
+    plan_ = Optimisation_plan_3(options, false);
   }
 
   Spatial_mesher_3(const Spatial_mesher_3&) = delete; // its parts know each other
@@ -117,6 +120,7 @@ public:
   /// The second half; does nothing if the first was stopped.
   void optimise()
   {
+    if (!initial_) plan_.fit(run_.seconds(), run_.time_left());
     if (goes_on_) fix_twins(mesh_);
     const std::optional<Still_vertices_3<Restricted>> still =
         goes_on_ && initial_ && initial_->is_adaptation
@@ -124,7 +128,7 @@ public:
             : std::nullopt;
     goes_on_ = goes_on_ && coarsen_and_smooth();
     run_.begin_stage("perturbation", Stage::polishing);
-    if (goes_on_ && options_.min_dihedral_angle > 0) perturb();
+    if (goes_on_ && plan_.target() > 0) perturb();
   }
 
   /// The report so far, but for the comparison with the domain.
@@ -133,7 +137,7 @@ public:
     run_.end_stage();
     Mesh_report_3 result = report_;
     run_.report(result);
-    fill_report(mesh_, criteria_, refinement_.size_floor(), options_.min_dihedral_angle > 0, result);
+    fill_report(mesh_, criteria_, refinement_.size_floor(), plan_.target() > 0, result);
     refinement_.add_earlier_queries(result);
     return result;
   }
@@ -157,13 +161,13 @@ private:
   /// couldn't be refined before stays as it is: another refinement mends nothing there, and may make more bad elements.
   bool coarsen_and_smooth()
   {
-    if (!options_.coarsen && options_.smoothing_sweeps == 0) return true;
+    if (!plan_.coarsens() && plan_.sweeps() == 0) return true;
     run_.begin_stage("sorting in memory", Stage::polishing);
     sort_in_memory(mesh_);
     report_.refined_smallest_dihedral = smallest_dihedral();
     if (initial_ && initial_->is_adaptation) return smooth() && coarsen(); // what was too much is gone already
     if (refinement_.bad_left() > 0 && is_bad_all_over()) return coarsen();
-    if (!(coarsen() && smooth() && (options_.smoothing_sweeps == 0 || coarsen()))) return false;
+    if (!(coarsen() && smooth() && (plan_.sweeps() == 0 || coarsen()))) return false;
     return !initial_ || refine_to_final_shapes();
   }
 
@@ -188,10 +192,10 @@ private:
   bool coarsen()
   {
     run_.begin_stage("coarsening", Stage::polishing);
-    if (!options_.coarsen) return true;
+    if (!plan_.coarsens()) return true;
     Coarsen_options_3 options;
     if (initial_ && initial_->is_adaptation) options.most_passes = 1;
-    options.time_limit = run_.time_left();
+    options.time_limit = plan_.time_before_perturbation(run_.time_left());
     options.go_on = [this] { return visit(0); };
     report_.coarsened += coarsen_3(mesh_, guard(), options).removed;
     return run_.may_go_on();
@@ -203,12 +207,12 @@ private:
     const double share = initial_ ? initial_->smoothing_share : 1;
     // A sweep isn't broken off: it takes about twice the time of all that came before it.
     const bool fits = share == 1 || 2 * run_.seconds() < share * run_.time_left();
-    if (options_.smoothing_sweeps == 0 || !fits) return true;
+    if (plan_.sweeps() == 0 || !fits) return true;
     sort_in_memory(mesh_); // coarsening has left gaps
     Smooth_options_3 options;
-    options.max_sweeps = options_.smoothing_sweeps;
+    options.max_sweeps = plan_.sweeps();
     options.threads = options_.threads;
-    options.time_limit = share * run_.time_left();
+    options.time_limit = plan_.time_before_perturbation(share * run_.time_left());
     options.go_on = [this] { return visit(0); };
     const Smooth_report_3 result = smooth_3(mesh_, guard(), options);
     report_.smoothing_sweeps += result.sweeps;
@@ -247,7 +251,7 @@ private:
     const std::function<bool()> goes_on = [this] { return visit(0) && run_.has_time(); };
     move_twins(mesh_, guard(), options_.seed + 4, 1, goes_on);
     Perturb_options_3 options;
-    options.target = options_.min_dihedral_angle;
+    options.target = plan_.target();
     // Where something is bad, the input has angles so small that the worst cells stay, whatever is done about them.
     // Given vertices may be beyond what criteria can mend; their slivers are wanted gone all the same.
     options.mend_worst = initial_ || is_good();
@@ -262,11 +266,13 @@ private:
     // The worst cells are much work: first it is seen what more twins can do about them.
     const bool mends_worst = options.mend_worst, has_twins = has_fixed_twins(mesh_);
     const std::size_t most = mesh_.vertices().size() + mesh_.vertices().size() / 8;
+    double reached = 0;
     for (unsigned round = 0;; ++round) {
       options.mend_worst = mends_worst && (round > 0 || !has_twins);
       const Perturb_report_3 result = perturb_slivers_3(mesh_, guard(), options);
       move_twins(mesh_, guard(), options_.seed + 5 + round, round == 0 ? 1 : share_of_trials, goes_on);
       if (round == 0) report_.smoothed_smallest_dihedral = result.before;
+      reached = result.after;
       report_.perturbed += result.by_radius + result.by_volume + result.by_chance;
       report_.perturb_insertions += result.insertions;
       if (!has_twins || !goes_on()) break;
@@ -276,7 +282,33 @@ private:
       if (twins == 0 && round > 0) break;
     }
     if (has_twins) mend_flat_cells(goes_on);
-    if (options_.min_dihedral_angle < Perturb_options_3::as_far_as_it_goes) run_.may_go_on();
+    if (mends_worst) climb(reached, goes_on);
+    const double last = plan_.steps() > 0 ? plan_.target_of_step(plan_.steps() - 1) : plan_.target();
+    if (last < Perturb_options_3::as_far_as_it_goes) run_.may_go_on();
+  }
+
+  /// Perturbs for further targets, one after the other. All of them share the vertices that may be inserted.
+  /// \param reached degrees.
+  void climb(double reached, const std::function<bool()>& goes_on)
+  {
+    const double most = most_inserted * static_cast<double>(mesh_.vertices().size());
+    double inserted = 0, wanted = plan_.target();
+    Perturb_options_3 options;
+    options.go_on = [this](double) { return visit(0); };
+    for (int step = 0; step < plan_.steps() && goes_on(); ++step) {
+      options.target = plan_.target_of_step(step);
+      const bool is_last = options.target >= Perturb_options_3::as_far_as_it_goes;
+      if (!is_last && reached < wanted) continue;
+      if (!is_last) options.first_bound = wanted = options.target;
+      options.insertions = (std::max)(0., most - inserted) / static_cast<double>(mesh_.vertices().size());
+      options.seed = options_.seed + first_seed_of_steps + static_cast<unsigned>(step);
+      options.time_limit = run_.time_left();
+      const Perturb_report_3 result = perturb_slivers_3(mesh_, guard(), options);
+      reached = result.after;
+      report_.perturbed += result.by_radius + result.by_volume + result.by_chance;
+      report_.perturb_insertions += result.insertions;
+      inserted += static_cast<double>(result.insertions) - static_cast<double>(result.removals);
+    }
   }
 
   /// A few flat cells between twins that are left are bad luck, and other random moves mend most of them.
@@ -295,10 +327,13 @@ private:
   static constexpr double share_of_trials = 0.125; ///< that later rounds have to move twins
   static constexpr unsigned most_chances = 8;      ///< that flat cells get to be mended
   static constexpr std::size_t few_cells = 10;     ///< flat ones; more are none by chance
+  static constexpr double most_inserted = 0.15;    ///< vertices, in parts of those there are, by further targets
+  static constexpr unsigned first_seed_of_steps = 100;
 
   const Oracle& oracle_;
   Criteria_3<Kernel> criteria_;
   const Mesh_options_3& options_;
+  Optimisation_plan_3 plan_;
   const Initial_vertices_3<Kernel>* initial_ = nullptr;
   Interior_vertices_3<Point> interior_; ///< of the initial vertices, those to be inserted later
   int inserted_at_ = 0;         ///< version of the mesh when the initial vertices were in
