@@ -100,7 +100,8 @@ public:
     if (!may_give_up || first->report.stop_reason != Stop_reason::exhausted) return optimised(std::move(first), 0);
     blamed_ = creases_beside_bad_elements(first->mesher.mesh(), criteria_, complex_);
     // Optimisation may mend a facet or cell, so that creases can stay. A crease edge it doesn't: that is known sooner.
-    const bool is_hopeless = first->report.bad_edges.elements > 0;
+    // Where time is short it would be spent on a mesh that is given up.
+    const bool is_hopeless = first->report.bad_edges.elements > 0 || time_left() < enough_time * timer_.seconds();
     if (!is_hopeless) first->optimise();
     if (first->report.stop_reason != Stop_reason::exhausted) return {std::move(first), 0};
 
@@ -116,9 +117,10 @@ public:
 private:
   std::unique_ptr<Attempt> attempt(const Complex& complex, Small_angles_3 small_angles) const
   {
-    const double time_left = options_.time_limit - timer_.seconds();
-    return std::make_unique<Attempt>(complex, criteria_, options_, time_left, small_angles);
+    return std::make_unique<Attempt>(complex, criteria_, options_, time_left(), small_angles);
   }
+
+  double time_left() const { return options_.time_limit - timer_.seconds(); }
 
   static Outcome optimised(std::unique_ptr<Attempt> attempt, std::size_t given_up)
   {
@@ -178,6 +180,7 @@ private:
   }
 
   static constexpr int rounds = 4;
+  static constexpr double enough_time = 48; ///< for optimisation, times that of refinement
   static constexpr std::size_t much_less = 4; ///< bad elements: a fourth
 
   Complex complex_; ///< with the creases that are left
