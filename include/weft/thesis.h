@@ -13,7 +13,8 @@
 //   criteria.size = 3;
 //   const auto result = weft::mesh_as_published_3(domain, criteria);
 //
-// | thesis | where | switched off by |
+// clang-format off
+// | thesis | where | switched by |
 // | --- | --- | --- |
 // | Alg. 2, refinement and Lloyd in turns | mesh_as_published_2() | As_published_options_2::interleave |
 // | its falling target | mesh_as_published_2() | lower_slowly |
@@ -22,11 +23,14 @@
 // | Alg. 5, refinement and Natural ODT in turns | mesh_as_published_3() | As_published_options_3::interleave |
 // | its initialisation, sec. 3.2.1.3 | mesh_as_published_3() | initial_loosening, target_steps, plain_creases |
 // | Alg. 6, independent sets | mesh_as_published_3() | mixed_batches |
-// | Steiner vertices, sec. 3.2.1.4 | mesh_as_published_3() | plain_points; on: follow_folds, see_ridges, mirror,
-// lattice | | K-grading, sec. 3.2.1.5 | mesh_as_published_3() | grade | | Natural ODT, sec. 3.2.1.5 | smooth_3() with
-// Natural_odt_3{0, 0} | sweeps; on: smooth_surface, keep_criteria | | locking, sec. 3.3.3 | smooth_3() | lock | | Alg.
-// 7, sliver perturbation | perturb_as_published_3() | published_perturbation, perturbation | | Alg. 8, Newton |
-// minimise_energy_2(), minimise_energy_3() | Solver_options::solver |
+// | Steiner vertices, sec. 3.2.1.4 | mesh_as_published_3() | plain_points; follow_folds, see_ridges, mirror, lattice |
+// | K-grading, sec. 3.2.1.5 | mesh_as_published_3() | grade |
+// | Natural ODT, sec. 3.2.1.5 | smooth_3() with Natural_odt_3{0, 0} | sweeps; smooth_surface, keep_criteria |
+// | locking, sec. 3.3.3 | smooth_3() | lock |
+// | Alg. 7, sliver perturbation | perturb_as_published_3() | published_perturbation, perturbation |
+// | Alg. 8, Newton | minimise_energy_2(), minimise_energy_3() | Solver_options::solver |
+// | weights, sec. 4.2.3 | weighted_odt_energy_3(), minimise_weighted_energy_3() | Weighted_options_3 |
+// clang-format on
 
 #ifndef WEFT_THESIS_H
 #define WEFT_THESIS_H
