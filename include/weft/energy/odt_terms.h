@@ -101,14 +101,15 @@ Energy_terms<d> volume_terms(const Simplices<d>& mesh, bool in_metric)
   return result;
 }
 
-/// Divides an energy by the volume V of the mesh, and where sizes vary further by the power 1 + 2 / d of its mean
-/// volume in their metric: E V^(2 / d) / M^(1 + 2 / d). That is the same for a mesh with a few flat cells more or less
-/// on a curved boundary, for one that shrinks, and for one whose vertices of large sizes crowd out the others.
+/// Divides an energy by the volume V of the mesh, and where sizes vary further by a power of its mean volume in their
+/// metric: E V^p / M^(1 + p) with p = degree / d. That is the same for a mesh with a few flat cells more or less on a
+/// curved boundary, for one that shrinks, and for one whose vertices of large sizes crowd out the others.
+/// \param degree power of lengths in what is integrated over the domain.
 /// \returns the factor of the energy.
 template <std::size_t d>
-double normalise(const Simplices<d>& mesh, Energy_terms<d>& terms)
+double normalise(const Simplices<d>& mesh, Energy_terms<d>& terms, double degree = 2)
 {
-  constexpr double power = 2.0 / d;
+  const double power = degree / d;
   const auto volume = volume_terms(mesh, false), mass = mesh.sizes.empty() ? volume : volume_terms(mesh, true);
   const double factor = std::pow(volume.value, power) / std::pow(mass.value, 1 + power);
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {

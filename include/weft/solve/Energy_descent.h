@@ -27,6 +27,7 @@
 
 namespace weft::internal {
 
+/// \tparam d number of coordinates of a point: those of its place, and of weighted points one more.
 /// \tparam Model the mesh that is worked on, with points numbered from 0:
 ///   - `terms(with_weights)`, its energy; `simplices()`, those that belong to it;
 ///   - `positions()`; `is_free(i)`; `to_tangent(i, vector)`, projected to where point i may go;
@@ -238,8 +239,8 @@ private:
   {
     std::vector<double> sum(positions_.size(), 0), count(positions_.size(), 0);
     for (const auto& s : model_.simplices().simplices)
-      for (std::size_t i = 0; i <= d; ++i)
-        for (std::size_t j = i + 1; j <= d; ++j) {
+      for (std::size_t i = 0; i < s.size(); ++i)
+        for (std::size_t j = i + 1; j < s.size(); ++j) {
           const Point edge = difference(positions_[s[i]], positions_[s[j]]);
           const double length = std::sqrt(dot(edge, edge));
           for (const auto v : {s[i], s[j]}) sum[v] += length, count[v] += 1;
