@@ -42,7 +42,6 @@ template <class K, class Oracle = Boundary_kept_3>
 class Weighted_model_3
 {
 public:
-  static constexpr int most_tries = 2;
   static constexpr bool keeps_boundary = std::is_same_v<Oracle, Boundary_kept_3>;
   using Vector = Coordinates<4>;
   using Place = Coordinates<3>;
@@ -65,9 +64,7 @@ public:
   }
 
   const Simplices<3>& simplices() const { return simplices_; } ///< as `terms()` has seen them last
-  const std::vector<Point>& points() const { return points_; }
   const std::vector<double>& weights() const { return weights_; }
-  const Regular& regular() const { return regular_; }
   std::size_t taken_back() const { return taken_back_; }
 
   std::vector<Vector> positions() const
@@ -173,6 +170,8 @@ public:
   }
 
 private:
+  static constexpr int most_tries = 2; ///< to bring a weight nearer to what it was, before it is that again
+
   static Place place(const Point& p)
   {
     return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
