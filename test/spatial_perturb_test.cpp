@@ -353,6 +353,9 @@ TEST_CASE("points have the same conflict zones in a mesh without a vertex and be
     std::vector<Point> points = {v->point()};
     std::vector<std::set<std::pair<Ids, Ids>>> zones;
     for (int n = 0; n < 8; ++n) points.push_back(v->point() + Vector(draw(), draw(), draw()));
+    std::vector<Restricted::Vertex_handle> neighbours; // no zone where another vertex is
+    mesh.triangulation().finite_adjacent_vertices(v, std::back_inserter(neighbours));
+    for (const auto w : neighbours) points.push_back(w->point());
     for (const Point& p : points) {
       Restricted::Zone zone;
       zones.emplace_back();

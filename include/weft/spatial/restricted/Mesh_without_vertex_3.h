@@ -59,10 +59,15 @@ public:
   const std::vector<Cell_handle>& filling() const { return filling_.cells(); }
 
   /// Finds the conflict zone of a point.
+  /// \returns false if it has none: another vertex is there, or it lies outside the hull.
   bool find_zone(const Point& p, Zone& zone)
   {
     Cell_handle start = mesh_->triangulation().locate(p, star_.front());
     if (start->has_vertex(vertex_)) {
+      for (int i = 0; i < 4; ++i) { // symbolic perturbation knows no equal points
+        const Vertex_handle v = start->vertex(i);
+        if (v != vertex_ && !mesh_->triangulation().is_infinite(v) && v->point() == p) return false;
+      }
       std::size_t k = 0;
       while (k < filling().size() &&
              mesh_->triangulation().side_of_sphere(filling()[k], p, true) != CGAL::ON_BOUNDED_SIDE)
